@@ -15,6 +15,8 @@ from rostest_support.node_test import PATIENCE, wait_until
 from rostest_support.page_test import address, ask, fetch
 from rostest_support.warehouse_test import place
 
+from warehouse_msgs.msg import Rotate
+
 POSES = 1e-3  # [m]
 
 
@@ -34,6 +36,28 @@ class ViewerTest(unittest.TestCase):
     def refused(self, status, text, answer):
         self.assertEqual(answer[0], status, answer)
         self.assertIn(text, str(answer[1]["detail"]))
+
+
+class WhoCommanded(ViewerTest):
+    def test_a_command_over_a_topic_has_the_name_of_its_node(self):
+        rotate = rospy.Publisher("rot", Rotate, queue_size=1)
+        wait_until(rotate.get_num_connections, "who listens")
+        mine = lambda: [row for row in rows() if row["by"] == rospy.get_name()]  # noqa: E731
+
+        def rows():
+            return csv.DictReader(io.StringIO(fetch("api/v1/commands.csv")[1].decode()))
+
+        def noted():
+            if not mine():
+                rotate.publish(Rotate.COUNTERCLOCKWISE, 1)
+            return mine()
+
+        wait_until(noted, "the journal to have the command")
+        row = mine()[0]
+        self.assertEqual((row["method"], row["path"], row["status"]), ("TOPIC", "/rot", "0"))
+        self.assertEqual(json.loads(row["body"])["kiva_id"], 1)
+        self.assertEqual(command(2, "rot", direction=1)[1]["outcome"], "done")
+        self.assertFalse([row for row in rows() if row["by"] == "/viewer"])
 
 
 class ChangingWhatStands(ViewerTest):

@@ -27,8 +27,8 @@ from warehouse_vda5050.mqtt.loop import MqttLoop
 from warehouse_vda5050.mqtt.settings import BrokerSettings
 from warehouse_vda5050.mqtt.vehicle_link import VehicleLink
 from warehouse_vda5050.ros.floor import grid_of, read_map
-from warehouse_vda5050.topics import Identity, Topics
-from warehouse_vda5050.vehicle import Vehicle
+from warehouse_vda5050.topics import Identity, Topics, prefix_of
+from warehouse_vda5050.vehicle import Vehicle, VehicleSettings
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "unit" / "python" / "vda5050"))
 
@@ -64,12 +64,13 @@ class MetricRobot(GridRobot):
 class Behind(threading.Thread):
     """The vehicle, with its connection, in a thread of its own."""
 
-    def __init__(self, robot, port):
+    def __init__(self, robot, port, version="2.1.0"):
         super().__init__(daemon=True)
         self.robot = robot
-        self.vehicle = Vehicle(robot, robot.grid)
+        self.vehicle = Vehicle(robot, robot.grid, VehicleSettings(zones=version == "3.0.0"))
         who, broker = Identity("acme", "7"), BrokerSettings("localhost", port)
-        self.link = VehicleLink(self.vehicle, who, codec_for(), Topics(), broker)
+        topics = Topics(prefix_of(version))
+        self.link = VehicleLink(self.vehicle, who, codec_for(version), topics, broker)
         self.ended = threading.Event()
         self.silent = False
 
@@ -85,7 +86,11 @@ class Behind(threading.Thread):
             self.link.tick(time.monotonic())
 
 
-class Master(unittest.TestCase):
+class VehicleCase(unittest.TestCase):
+    """A warehouse, a broker with one vehicle, and the master between them."""
+
+    VERSION = "2.1.0"
+
     @classmethod
     def setUpClass(cls):
         cls.fleet = Collector("/warehouse/fleet", FleetState)
@@ -97,7 +102,8 @@ class Master(unittest.TestCase):
         wait_until(lambda: warehouse.is_known, "the warehouse")
         cls.plan = warehouse.plan()
         cls.broker = OwnBroker()
-        cls.behind = Behind(MetricRobot(grid_of(read_map()), cls.free_place()), cls.broker.port)
+        robot = MetricRobot(grid_of(read_map()), cls.free_place())
+        cls.behind = Behind(robot, cls.broker.port, cls.VERSION)
         cls.behind.start()
         cls.start_master()
 
@@ -110,19 +116,24 @@ class Master(unittest.TestCase):
 
     @classmethod
     def free_place(cls):
-        """A parking cell that no robot is near, as (column, row)."""
+        """A parking cell without a robot, as (column, row)."""
+        return cls.free_places()[0]
+
+    @classmethod
+    def free_places(cls):
+        """The parking cells without a robot, as (column, row)."""
         fleet = cls.fleet.messages[-1]
         taken = {int(cell) for cell in cls.plan.cell_of(fleet.x, fleet.y)}
         rows, columns = cls.plan.shape
         free = cls.plan.parking.ravel().nonzero()[0]
-        cell = next(int(c) for c in free if int(c) not in taken)
-        return cell % columns, cell // columns
+        return [(int(c) % columns, int(c) // columns) for c in free if int(c) not in taken]
 
     @classmethod
     def start_master(cls):
         file = Path(tempfile.mkdtemp()) / "robots.yaml"
         file.write_text(f"{NUMBER}: {{manufacturer: acme, serial: '7'}}\n")
         rospy.set_param("/vda5050_master/robots", str(file))
+        rospy.set_param("/vda5050_master/version", cls.VERSION)
         rospy.set_param("/vda5050_master/broker", f"localhost:{cls.broker.port}")
         command = ["setpriv", "--pdeathsig", "TERM", "rosrun", "warehouse_vda5050", "master"]
         cls.node = subprocess.Popen(command)
@@ -136,6 +147,14 @@ class Master(unittest.TestCase):
         names = ("x", "y", "status", "failures", "shelf_id", "path_id")
         return {name: getattr(fleet, name)[i] for name in names}
 
+    def broken(self):
+        return bool(bytes(self.fleet.messages[-1].failures)[self.index()] & RADIO)
+
+    def index(self):
+        return list(self.fleet.messages[-1].kiva_id).index(NUMBER)
+
+
+class Master(VehicleCase):
     def test_1_it_stands_where_the_vehicle_is(self):
         wait_until(self.row, "the vehicle's shadow", PATIENCE)
         x, y = self.behind.robot.grid.position(self.behind.robot.cell)
@@ -162,12 +181,6 @@ class Master(unittest.TestCase):
         self.state.first(lambda state: any("kiva21" in alarm for alarm in state.alarms), PATIENCE)
         self.behind.silent = False
         wait_until(lambda: not self.broken(), "it is heard again")
-
-    def broken(self):
-        return bool(bytes(self.fleet.messages[-1].failures)[self.index()] & RADIO)
-
-    def index(self):
-        return list(self.fleet.messages[-1].kiva_id).index(NUMBER)
 
 
 if __name__ == "__main__":

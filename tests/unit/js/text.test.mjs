@@ -4,7 +4,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { reasonOf } from '../../../src/warehouse_viewer/web/js/base/request.js';
-import { counted, number, percent } from '../../../src/warehouse_viewer/web/js/base/numbers.js';
+import { number, percent } from '../../../src/warehouse_viewer/web/js/language/numbers.js';
+import { plural } from '../../../src/warehouse_viewer/web/js/language/texts.js';
 import { clock } from '../../../src/warehouse_viewer/web/js/base/time.js';
 import { shownName } from '../../../src/warehouse_viewer/web/js/base/words.js';
 import { planOf } from '../../../src/warehouse_viewer/web/js/panels/build_dialog.js';
@@ -49,7 +50,7 @@ test('things have one name in all sentences', () => {
 test('numbers are those of the locale', () => {
   assert.equal(number(-1234.5, 1), (1234.5).toLocaleString(undefined, { minimumFractionDigits: 1 }).replace(/^/, '−'));
   assert.equal(percent(0.125, 1), `${(12.5).toLocaleString(undefined)} %`);
-  assert.equal(counted(1, 'order'), '1 order');
+  assert.equal(plural(1, '{n} order', '{n} orders'), '1 order');
 });
 
 test('reasons of refusals', () => {

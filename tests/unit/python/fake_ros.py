@@ -60,6 +60,10 @@ class FakeRos:
         return "/"
 
     @staticmethod
+    def get_name():
+        return "/viewer"
+
+    @staticmethod
     def resolve_name(name):
         return f"/{name.lstrip('/')}"
 

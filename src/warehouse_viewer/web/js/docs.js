@@ -3,6 +3,7 @@
 
 import { $, make, on } from './base/dom.js';
 import { at } from './base/root.js';
+import { tr } from './language/texts.js';
 
 const OPENAPI = '/api/v1/openapi.json';
 
@@ -45,12 +46,12 @@ function form(api, path, method, { parameters = [], requestBody, responses }) {
   const body = requestBody?.content['application/json'].schema;
   if (body) {
     const text = JSON.stringify(example(api, body), null, 2);
-    out.append(make('p', { className: 'dim', textContent: `body: ${fieldsOf(api, body)}` }),
-      make('textarea', { name: 'body', ariaLabel: 'Body', value: text, spellcheck: false }));
+    out.append(make('p', { className: 'dim', textContent: tr`body: ${fieldsOf(api, body)}` }),
+      make('textarea', { name: 'body', ariaLabel: tr`Body`, value: text, spellcheck: false }));
   }
   const answer = make('pre', { hidden: true, tabIndex: 0 });
-  out.append(make('p', { className: 'dim', textContent: `answers: ${Object.keys(responses).join(', ')}` }),
-    make('button', { textContent: 'Try it' }), answer);
+  out.append(make('p', { className: 'dim', textContent: tr`answers: ${Object.keys(responses).join(', ')}` }),
+    make('button', { textContent: tr`Try it` }), answer);
   on(out, 'submit', async (event) => {
     event.preventDefault();
     answer.hidden = false;
@@ -60,7 +61,7 @@ function form(api, path, method, { parameters = [], requestBody, responses }) {
 }
 
 function field({ name, in: place, required, description = '', schema }) {
-  const limits = [schema.enum?.join(' | '), schema.default !== undefined && `default ${schema.default}`];
+  const limits = [schema.enum?.join(' | '), schema.default !== undefined && tr`default ${schema.default}`];
   const about = [description, ...limits].filter(Boolean).join('; ');
   return make('label', {}, make('code', { textContent: name }),
     make('input', { name: `${place}:${name}`, required, value: required ? '1' : '' }),
@@ -110,7 +111,7 @@ function example(api, schema) {
 /** The fields of a body, in words; of each of its variants if it has some. */
 function fieldsOf(api, schema) {
   const { anyOf, properties = {}, required = [] } = resolve(api, schema);
-  if (anyOf) return anyOf.map((variant) => fieldsOf(api, variant)).join(' or ');
+  if (anyOf) return anyOf.map((variant) => fieldsOf(api, variant)).join(tr` or `);
   const fields = Object.entries(properties).map(([name, property]) => (
     `${name}${required.includes(name) ? '' : '?'}: ${property.enum?.join(' | ') ?? property.type ?? property.$ref?.split('/').at(-1)}`));
   return `{ ${fields.join(', ')} }`;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page: what comes from the server goes to the World and from there into picture and panels.
 
+import { tr } from './language/texts.js';
 import { Actors } from './scene/actors.js';
 import { Bar } from './panels/bar.js';
 import { Builder } from './panels/builder.js';
@@ -112,7 +113,7 @@ class Page {
       this.stage = new Stage($('stage'), (now) => this.beforeDraw(now),
         (gap) => this.showPace(gap));
     } catch (error) {
-      this.tip.say(`no picture: this browser offers no WebGL (${error.message})`, 'refused');
+      this.tip.say(tr`no picture: this browser offers no WebGL (${error.message})`, 'refused');
       return;
     }
     this.actors = new Actors(this.stage, this.world);
@@ -137,7 +138,7 @@ class Page {
   showPace(gap) {
     this.connection.slowTo(gap / 1000);
     $('pace').hidden = gap < NOTABLE;
-    setText($('pace'), `${Math.round(1000 / gap)} frames/s: rendered without a graphics card`);
+    setText($('pace'), tr`${Math.round(1000 / gap)} frames/s: rendered without a graphics card`);
   }
 
   /** Keeps what is looked at in the middle of what the panels leave free. */
@@ -392,7 +393,7 @@ class Page {
   }
 
   textOf(cell) {
-    return `${this.placer ? `${this.placer.what} at` : 'go to'} ${cell.join(', ')}`;
+    return `${this.placer ? tr`${this.placer.what} at` : tr`go to`} ${cell.join(', ')}`;
   }
 
   take(cell, at) {
@@ -403,13 +404,13 @@ class Page {
 
   /** Selects the clicked thing; while a cell is being chosen, says that the thing occupies it. */
   choose(name, at) {
-    if (this.placer) this.placer.refuse(`${shownName(name)} stands there`, at);
+    if (this.placer) this.placer.refuse(tr`${shownName(name)} stands there`, at);
     else this.select(name);
   }
 
   /** A click that meant nothing. */
   miss(at) {
-    this.placer?.refuse('that is beside the floor', at);
+    this.placer?.refuse(tr`that is beside the floor`, at);
   }
 
   /** What is the name of nothing that stands there may be a SKU. */
@@ -535,10 +536,10 @@ class Page {
 
   /** The fine picture comes after the first plain one; where the processor draws it stays plain. */
   offerFine() {
-    const lack = drawsInSoftware() ? 'drawn without a graphics card' : '';
+    const lack = drawsInSoftware() ? tr`drawn without a graphics card` : '';
     $('fine').disabled = Boolean(lack); // it commands nothing: a recording has it, too
-    if (lack) $('fine').title += ` – not now: ${lack}`;
-    setText($('quality'), lack ? `plain, ${lack}` : 'fine, by the graphics card; Fine among the tools makes it plain');
+    if (lack) $('fine').title += tr` – not now: ${lack}`;
+    setText($('quality'), lack ? tr`plain, ${lack}` : tr`fine, by the graphics card; Fine among the tools makes it plain`);
     if (!lack && localStorage.getItem('picture') !== 'plain') this.showFine(true);
   }
 

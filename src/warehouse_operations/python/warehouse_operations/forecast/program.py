@@ -4,6 +4,7 @@
 import argparse
 import json
 import math
+import tempfile
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -98,7 +99,10 @@ def _site(then: Moment, layout: str, robots: int | None) -> Site:
 
 
 def answer(prepared: Prepared, asked: Request, processes: int | None, out: Path | None) -> str:
-    """Makes the runs, with a progress line, and returns what comes. Raises RunsError."""
+    """Makes the runs, with a progress line, and returns what comes. Raises RunsError, and
+    ForecastError for a folder that can't be written to, before anything starts."""
+    if out:
+        _check_folder(out)
     outcomes = _outcomes(prepared.tasks, asked, processes)
     forecasts = [
         forecast_of(task, asked.minutes, runs, prepared.known, changes=changes)
@@ -108,12 +112,20 @@ def answer(prepared: Prepared, asked: Request, processes: int | None, out: Path 
     if len(forecasts) > 1:
         parts += [shown(forecasts[1], "; ".join(asked.changes)), difference(outcomes, asked)]
     if out:
-        out.mkdir(parents=True, exist_ok=True)
         content = [_plain(asdict(forecast)) for forecast in forecasts]
         path = out / "forecast.json"
         path.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
         parts.append(f"{path}: the bands, minute by minute")
     return "\n\n".join(parts)
+
+
+def _check_folder(out: Path) -> None:
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=out):
+            pass
+    except OSError as error:
+        raise ForecastError(f"out is {out}: {error.strerror}") from error
 
 
 def _outcomes(tasks: list[Task], asked: Request, processes: int | None) -> list[list[Outcome]]:

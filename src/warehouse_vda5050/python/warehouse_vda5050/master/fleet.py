@@ -8,11 +8,11 @@ from warehouse_vda5050.master.commands import Cancel, Command, Stop
 from warehouse_vda5050.master.remote_vehicle import Happened, RemoteVehicle
 from warehouse_vda5050.master.robots_file import RemoteRobot
 from warehouse_vda5050.master.shadow import Shadow, shadow_of
+from warehouse_vda5050.master.zone_desk import ClosedArea, ZoneDesk
 from warehouse_vda5050.model import (
     Connection,
     Factsheet,
-    InstantActions,
-    VehicleOrder,
+    ToVehicle,
     VehicleState,
 )
 from warehouse_vda5050.topics import Identity
@@ -21,10 +21,17 @@ ALL = 0  # the number that stands for every robot in a Stop
 
 
 class RemoteFleet:
-    """The vehicles of a file of robots. One thread at a time."""
+    """The vehicles of a file of robots. One thread at a time. zones: whether they may keep to zone
+    sets, which 3.0 alone has."""
 
-    def __init__(self, robots: Iterable[RemoteRobot], grid: Grid, run: str) -> None:
+    def __init__(
+        self, robots: Iterable[RemoteRobot], grid: Grid, run: str, zones: bool = False
+    ) -> None:
         self._vehicles = {robot.number: RemoteVehicle(robot, grid, run) for robot in robots}
+        self._zones = {
+            vehicle.robot.identity: ZoneDesk(vehicle.robot, vehicle.view, run, grid.spacing)
+            for vehicle in (self._vehicles.values() if zones else ())
+        }
         self._by_identity = {v.robot.identity: v for v in self._vehicles.values()}
 
     @property
@@ -52,18 +59,32 @@ class RemoteFleet:
         vehicle = self._by_identity.get(identity)
         if vehicle is None:
             return
+        zones = self._zones.get(identity)
         if isinstance(message, VehicleState):
             vehicle.take_state(message, now)
+            if zones and vehicle.view.state is message:
+                zones.take_state(message)
         elif isinstance(message, Factsheet):
             vehicle.take_factsheet(message)
+            if zones:
+                zones.take_factsheet(message)
         else:
             vehicle.take_connection(message.state, now)
 
-    def messages(self, now: float) -> Iterator[tuple[Identity, VehicleOrder | InstantActions]]:
+    def close_zones(self, areas: Iterable[ClosedArea]) -> None:
+        """Takes the closed zones of the floor as they are now."""
+        areas = tuple(areas)
+        for zones in self._zones.values():
+            zones.close(areas)
+
+    def messages(self, now: float) -> Iterator[tuple[Identity, ToVehicle]]:
         """Yields the messages to send, with the vehicle of each."""
         for vehicle in self._vehicles.values():
             for message in vehicle.messages(now):
                 yield vehicle.robot.identity, message
+        for identity, zones in self._zones.items():
+            for about in zones.messages(now):
+                yield identity, about
 
     def shadows(self, now: float) -> list[Shadow]:
         """Returns the warehouse's rows of the vehicles that have reported a position."""
@@ -72,4 +93,6 @@ class RemoteFleet:
 
     def take_events(self) -> list[Happened]:
         """Returns what has happened since the last call."""
+        for identity, zones in self._zones.items():
+            self._by_identity[identity].note_refusals(zones.take_news())
         return [event for v in self._vehicles.values() for event in v.take_events()]

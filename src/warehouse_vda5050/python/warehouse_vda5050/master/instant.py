@@ -27,10 +27,10 @@ class InstantRequests:
         self._run, self._count = run, 0
         self._pending: dict[str, _Pending] = {}
 
-    def ask(self, kind: str) -> str:
-        """Adds an action, and returns its id."""
+    def ask(self, kind: str, *parameters: tuple[str, str]) -> str:
+        """Adds an action with parameters, and returns its id."""
         self._count += 1
-        action = Action(kind, f"{self._run}-i{self._count}", BlockingType.NONE)
+        action = Action(kind, f"{self._run}-i{self._count}", BlockingType.NONE, parameters)
         self._pending[action.id] = _Pending(action)
         return action.id
 

@@ -164,6 +164,11 @@ class RemoteVehicle:
         events, self._events = self._events, []
         return events
 
+    def note_refusals(self, texts: list[str]) -> None:
+        """Reports why the vehicle refuses what is no command."""
+        for text in texts:
+            self._happened(EventKind.REFUSED, text)
+
     @property
     def is_idle(self) -> bool:
         """Whether it takes a new command."""

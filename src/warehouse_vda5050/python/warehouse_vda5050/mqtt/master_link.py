@@ -10,8 +10,11 @@ from warehouse_vda5050.model import (
     Connection,
     Factsheet,
     InstantActions,
+    Responses,
+    ToVehicle,
     VehicleOrder,
     VehicleState,
+    ZoneSet,
 )
 from warehouse_vda5050.mqtt.loop import Link, Outgoing
 from warehouse_vda5050.mqtt.settings import BrokerSettings
@@ -20,6 +23,12 @@ from warehouse_vda5050.validation import MessageError
 
 HEARD = (Kind.CONNECTION, Kind.STATE, Kind.FACTSHEET)
 KEPT = (Kind.CONNECTION, Kind.FACTSHEET)  # by brokers, for masters that come later
+KINDS: dict[type, Kind] = {
+    VehicleOrder: Kind.ORDER,
+    InstantActions: Kind.INSTANT_ACTIONS,
+    ZoneSet: Kind.ZONE_SET,
+    Responses: Kind.RESPONSES,
+}
 FromVehicle = VehicleState | Connection | Factsheet
 
 
@@ -47,9 +56,9 @@ class MasterLink:
         ]
         self.link = Link(name, broker, subscriptions, self._on_message)
 
-    def send(self, identity: Identity, message: VehicleOrder | InstantActions) -> None:
+    def send(self, identity: Identity, message: ToVehicle) -> None:
         """Sends a message to a vehicle, if there is a connection."""
-        kind = Kind.ORDER if isinstance(message, VehicleOrder) else Kind.INSTANT_ACTIONS
+        kind = KINDS[type(message)]
         message = replace(message, header=self._headers[identity].next(kind))
         topic = self._topics.of(identity, kind)
         self.link.publish(Outgoing(topic, self._codec.encode(message), kind.qos, kind.retained))

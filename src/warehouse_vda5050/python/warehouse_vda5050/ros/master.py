@@ -13,12 +13,13 @@ from queue import Empty, SimpleQueue
 import rospy
 
 from warehouse_client.engine import Engine, EngineError
+from warehouse_client.message_check import subscribe
 from warehouse_client.services import is_offered
 from warehouse_client.warehouse import WarehouseClient
 from warehouse_layout.message_enums import EventKind as Kind
 from warehouse_layout.message_enums import FailureKind, RobotMode
 from warehouse_layout.models import models
-from warehouse_msgs.msg import Event, FleetState, Scenery, Vda5050
+from warehouse_msgs.msg import ClosedZones, Event, FleetState, Scenery, Vda5050
 from warehouse_msgs.srv import SetRobotMode
 from warehouse_vda5050.broker_topic import BrokerTopic, masters_message
 from warehouse_vda5050.grid import Grid
@@ -27,7 +28,8 @@ from warehouse_vda5050.master.fleet import RemoteFleet
 from warehouse_vda5050.master.remote_vehicle import Happened, RemoteVehicle
 from warehouse_vda5050.master.robots_file import RemoteRobot
 from warehouse_vda5050.master.shadow import Shadow
-from warehouse_vda5050.model import InstantActions, VehicleOrder
+from warehouse_vda5050.master.zone_desk import ClosedArea
+from warehouse_vda5050.model import ToVehicle
 from warehouse_vda5050.mqtt.master_link import FromVehicle
 from warehouse_vda5050.ros.commands import CommandTopics
 from warehouse_vda5050.ros.floor import grid_of, read_map
@@ -35,7 +37,7 @@ from warehouse_vda5050.topics import Identity
 
 SET_MODE = "warehouse/set_robot_mode"
 PERIOD = 0.1  # of shadows [s, wall]
-Send = Callable[[Identity, VehicleOrder | InstantActions], None]
+Send = Callable[[Identity, ToVehicle], None]
 MODES = {True: RobotMode.AUTOMATIC, False: RobotMode.MANUAL}  # by whether the vehicle takes orders
 
 
@@ -43,14 +45,20 @@ class Master:
     """Hosts a RemoteFleet: take() gets the messages of vehicles, `send` sends those to them.
 
     run() alone touches the fleet; commands, which come in threads of rospy, wait for it. `run` is
-    a word that no run before had, `broker` its broker's address as shown to people, `poll` waits
-    at most some seconds for messages of vehicles.
+    a word that no run before had, `broker` its broker's address as shown to people, `zones` whether
+    vehicles may keep to zone sets, `poll` waits at most some seconds for messages of vehicles.
     """
 
     def __init__(
-        self, robots: Iterable[RemoteRobot], warehouse: WarehouseClient, run: str, broker: str
+        self,
+        robots: Iterable[RemoteRobot],
+        warehouse: WarehouseClient,
+        run: str,
+        broker: str,
+        zones: bool = False,
     ) -> None:
         self._robots, self._run, self._broker = list(robots), run, broker
+        self._has_zones = zones
         self._warehouse = warehouse
         self._fleet: RemoteFleet | None = None
         self._next_shadows = 0.0
@@ -65,6 +73,7 @@ class Master:
         self._set_mode = rospy.ServiceProxy(SET_MODE, SetRobotMode)
         numbers = frozenset(robot.number for robot in self._robots)
         CommandTopics(numbers, self._post_command, self._timeline)
+        subscribe(rospy, "warehouse/zones", ClosedZones, self._on_zones, queue_size=1)
 
     def take(self, identity: Identity, message: FromVehicle) -> None:
         """Takes a vehicle's message; called by poll()."""
@@ -74,7 +83,7 @@ class Master:
 
     def run(self, send: Send, poll: Callable[[float], None]) -> None:
         """Serves until ROS shuts down."""
-        fleet = self._fleet = RemoteFleet(self._robots, self._grid(), self._run)
+        fleet = self._fleet = RemoteFleet(self._robots, self._grid(), self._run, self._has_zones)
         while not rospy.is_shutdown():
             poll(PERIOD / 4)
             self._take_posted(fleet)
@@ -94,6 +103,13 @@ class Master:
 
     def _post_command(self, kiva_id: int, command: Command) -> None:
         self._posted.put(lambda fleet: fleet.command(kiva_id, command))
+
+    def _on_zones(self, message: ClosedZones) -> None:
+        areas = tuple(
+            ClosedArea(z.zone_id, z.x_min, z.y_min, z.x_max, z.y_max, frozenset(z.inside))
+            for z in message.zones
+        )
+        self._posted.put(lambda fleet: fleet.close_zones(areas))
 
     def _timeline(self) -> int:
         return self._warehouse.timeline if self._warehouse.fleet is not None else 0

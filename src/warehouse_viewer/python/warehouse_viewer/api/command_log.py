@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Who commanded what over HTTP: the page's clicks and programs' requests alike."""
+"""Who commanded what: clicks on pages and requests of programs over HTTP, commands over topics."""
 
 import csv
 import io

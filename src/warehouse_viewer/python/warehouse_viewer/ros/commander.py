@@ -32,6 +32,7 @@ class Commander:
     """Lives in an asyncio loop. `ros` is rospy."""
 
     def __init__(self, ros: ModuleType) -> None:
+        self._ros = ros
         self._publishers = {t: ros.Publisher(t, k, queue_size=100) for t, k in COMMANDS.items()}
         self._locks: dict[int, asyncio.Lock] = {}
         self._listeners: set[tuple[str, asyncio.Queue]] = set()
@@ -39,11 +40,19 @@ class Commander:
     async def ready(self, topic: str, patience: float = 3.0) -> bool:
         """Waits at most `patience` [s, wall] for the world to subscribe; returns whether it has."""
         deadline = time.monotonic() + patience
-        while self._publishers[topic].get_num_connections() == 0:
+        while not self._listeners_elsewhere(topic):
             if time.monotonic() > deadline:
                 return False
             await asyncio.sleep(0.05)
         return True
+
+    def _listeners_elsewhere(self, topic: str) -> int:
+        """Returns how many other nodes have subscribed: this one may listen to commands itself."""
+        publisher = self._publishers[topic]
+        connections = getattr(getattr(publisher, "impl", None), "connections", None)
+        if connections is None:  # what stands in for rospy's
+            return publisher.get_num_connections()
+        return sum(each.endpoint_id != self._ros.get_name() for each in list(connections))
 
     def note(self, entry: dict[str, Any]) -> None:
         """Passes a journal entry to the commands that wait for it. Call it in the loop."""

@@ -4,6 +4,7 @@
 import functools
 import gzip
 import os
+import re
 from collections.abc import Callable, Hashable
 from pathlib import Path
 from typing import NamedTuple
@@ -17,9 +18,13 @@ KINDS = {  # that shrink, by suffix
     ".css": "text/css",
     ".html": "text/html",
     ".js": "text/javascript",
+    ".json": "application/json",
     ".svg": "image/svg+xml",
 }
 MOST_PACKED = 300  # files that are kept compressed
+# Comments of our own modules that have a line, or lines, to themselves.
+COMMENT = re.compile(rb"^[ \t]*(?://[^\n]*|/\*\*(?:(?!\*/).)*\*/[ \t]*)$", re.M | re.S)
+OWN = b"// SPDX-License-Identifier: Apache-2.0\n"
 QUALITY = 9  # of Brotli; 11 saves another 8 % and takes 3 s for the largest file
 
 try:
@@ -98,4 +103,12 @@ def _taken(scope: Scope) -> Packing | None:
 @functools.lru_cache(MOST_PACKED)
 def _packed(path: str, version: Hashable, packing: Packing) -> bytes:  # noqa: ARG001 (part of the cache's key)
     """A file's content, compressed once."""
-    return packing.pack(Path(path).read_bytes())
+    content = Path(path).read_bytes()
+    return packing.pack(without_comments(content) if path.endswith(".js") else content)
+
+
+def without_comments(module: bytes) -> bytes:
+    """A module of ours as browsers get it: each line stays at its number."""
+    if not module.startswith(OWN):
+        return module
+    return OWN + COMMENT.sub(lambda match: b"\n" * match[0].count(b"\n"), module[len(OWN) :])

@@ -3,6 +3,7 @@
 
 import { make } from './dom.js';
 import { ROOT } from './root.js';
+import { tr } from '../language/texts.js';
 import { lasting } from './time.js';
 import { shownName } from './words.js';
 
@@ -43,8 +44,8 @@ export class AlarmRow {
     this.follows.replaceChildren(...consequences.map((consequence) => make('li', { textContent: shownName(consequence) })));
     this.follows.hidden = !consequences.length;
     this.showRemedies(remedies, alarm.since);
-    this.button.textContent = by ? 'Not mine' : 'Seen';
-    this.button.ariaLabel = by ? `Take back that ${by} has seen: ${name}` : `I have seen: ${name}`;
+    this.button.textContent = by ? tr`Not mine` : tr`Seen`;
+    this.button.ariaLabel = by ? tr`Take back that ${by} has seen: ${name}` : tr`I have seen: ${name}`;
     this.button.hidden = !id;
     this.tick(now);
   }
@@ -70,7 +71,7 @@ export class AlarmRow {
 
   tick(now) {
     const { since, seen_by: by, seen_at: at } = this.alarm;
-    this.since.textContent = since ? `for ${lasting(now - since)}` : '';
-    this.seenBy.textContent = by ? `seen by ${by}, ${lasting(now - at)} ago` : 'seen by no one yet';
+    this.since.textContent = since ? tr`for ${lasting(now - since)}` : '';
+    this.seenBy.textContent = by ? tr`seen by ${by}, ${lasting(now - at)} ago` : tr`seen by no one yet`;
   }
 }

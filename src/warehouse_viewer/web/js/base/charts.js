@@ -3,6 +3,7 @@
 // chart is wanted.
 
 import { make, on, onTheme, token } from './dom.js';
+import { tr } from '../language/texts.js';
 
 const LIBRARY = '/chart/chart.min.js';
 let loading = null;
@@ -18,7 +19,7 @@ function library() {
   loading ??= new Promise((resolve, reject) => {
     const script = make('script', { src: LIBRARY });
     on(script, 'load', () => resolve(window.Chart));
-    on(script, 'error', () => reject(new Error('there is no Chart.js: is libjs-chart.js installed?')));
+    on(script, 'error', () => reject(new Error(tr`there is no Chart.js: is libjs-chart.js installed?`)));
     document.head.append(script);
   });
   return loading;

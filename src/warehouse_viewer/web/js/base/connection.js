@@ -5,6 +5,7 @@ import { reloadIfLockedOut } from './api.js';
 import { on } from './dom.js';
 import { decode } from './protocol.js';
 import { ROOT } from './root.js';
+import { tr } from '../language/texts.js';
 
 const RETRY = [500, 1000, 2000, 4000]; // [ms]
 const FULL = 1013; // a WebSocket's close code: the server has as many pages as it takes
@@ -53,7 +54,7 @@ export class Connection {
   }
 
   again(code) {
-    this.handlers.state(false, code === FULL ? 'too many pages are open' : 'no connection');
+    this.handlers.state(false, code === FULL ? tr`too many pages are open` : tr`no connection`);
     reloadIfLockedOut();
     setTimeout(() => this.isHeld || this.open(), RETRY[Math.min(this.failures++, RETRY.length - 1)]);
   }

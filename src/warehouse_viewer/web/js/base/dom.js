@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
+import { tr } from '../language/texts.js';
+
 export const $ = (id) => document.getElementById(id);
 
 /** Calls the handler at each such event. What it returns means nothing; to an `onkeydown` a false
@@ -54,5 +56,5 @@ export function enable(button, lack, titled = button) {
   titled.dataset.title ??= titled.title;
   button.disabled = Boolean(why);
   button.dataset.why = why || '';
-  titled.title = why ? `${titled.dataset.title} – not now: ${why}` : titled.dataset.title;
+  titled.title = why ? tr`${titled.dataset.title} – not now: ${why}` : titled.dataset.title;
 }

@@ -2,12 +2,13 @@
 // The name of the person in front of the page, kept in the browser.
 
 import { $, make, on } from './dom.js';
+import { tr } from '../language/texts.js';
 
 const FORM = `<form method="dialog">
-  <h2 id="who-title">Who are you?</h2>
-  <p class="dim">Others see this name beside the alarms that you take care of. It stays in this browser.</p>
-  <label>Name <input id="who-name" maxlength="60" autocomplete="nickname"></label>
-  <div class="answers"><button value="">Cancel</button><button value="yes" class="strong">Keep</button></div>
+  <h2 id="who-title">${tr`Who are you?`}</h2>
+  <p class="dim">${tr`Others see this name beside the alarms that you take care of. It stays in this browser.`}</p>
+  <label>${tr`Name`} <input id="who-name" maxlength="60" autocomplete="nickname"></label>
+  <div class="answers"><button value="">${tr`Cancel`}</button><button value="yes" class="strong">${tr`Keep`}</button></div>
 </form>`;
 
 /** The name that is kept here; '': none is. */

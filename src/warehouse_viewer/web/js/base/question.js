@@ -2,10 +2,11 @@
 // Asks before something is done.
 
 import { $, make, on } from './dom.js';
+import { tr } from '../language/texts.js';
 
 const FORM = `<form method="dialog">
   <h2 id="question-title"></h2><p id="question-text"></p>
-  <div class="answers"><button id="question-no" value="">Cancel</button><button id="question-yes" value="yes" class="danger"></button></div>
+  <div class="answers"><button id="question-no" value="">${tr`Cancel`}</button><button id="question-yes" value="yes" class="danger"></button></div>
 </form>`;
 
 if (globalThis.document) { // tests of a page's sums have none
@@ -15,7 +16,7 @@ if (globalThis.document) { // tests of a page's sums have none
 }
 
 /** Resolves to whether the person said yes. */
-export async function confirmed(title, text, yes, no = 'Cancel') {
+export async function confirmed(title, text, yes, no = tr`Cancel`) {
   $('question-title').textContent = title;
   $('question-text').textContent = text;
   $('question-yes').textContent = yes;

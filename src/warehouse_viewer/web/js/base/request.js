@@ -2,6 +2,7 @@
 // Requests to the server of a page, in JSON.
 
 import { at } from './root.js';
+import { tr } from '../language/texts.js';
 
 /** The response, if it is a good one; throws an Error with the reason, and with the `status`
  *  where there is an answer, and the `field` that it names. A text is sent as it is. */
@@ -11,12 +12,12 @@ export async function send(method, path, body = undefined, signal = undefined) {
     answer = await fetch(at(path), { method, signal, ...contentOf(method, body) });
   } catch (error) {
     if (error.name === 'AbortError') throw error;
-    throw new Error('the server does not answer', { cause: error });
+    throw new Error(tr`the server does not answer`, { cause: error });
   }
   const { ok, status, statusText } = answer;
   if (ok) return answer;
   const { detail, field = '' } = await answer.json().catch(() => ({}));
-  throw Object.assign(new Error(reasonOf(detail) || `the server failed: ${status} ${statusText}`.trim()), { status, field });
+  throw Object.assign(new Error(reasonOf(detail) || tr`the server failed: ${status} ${statusText}`.trim()), { status, field });
 }
 
 /** Headers and body of a request; one that changes something names the person. */

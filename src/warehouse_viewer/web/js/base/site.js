@@ -3,17 +3,21 @@
 
 import { make, on } from './dom.js';
 import { ROOT, at } from './root.js';
+import { plural, tr } from '../language/texts.js';
 
 const COUNT_PERIOD = 10000; // [ms]
+/** The titles of pages, by those that the server lists. */
+const TITLES = { Simulations: tr`Simulations`, Floor: tr`Floor`, Operations: tr`Operations`, Layout: tr`Layout`, 'What-if': tr`What-if`, API: tr`API`, Docs: tr`Docs` };
 
 async function showPages() {
   const answer = await fetch(at('/pages')).catch(() => null);
-  const pages = answer?.ok ? await answer.json() : [];
+  const listed = answer?.ok ? await answer.json() : [];
+  const pages = listed.map((page) => ({ ...page, title: TITLES[page.title] ?? page.title }));
   const links = pages.map(({ path, title }) => make('a', { href: at(path), textContent: title }));
   for (const link of links) {
     if (link.pathname === location.pathname) link.setAttribute('aria-current', 'page');
   }
-  const hub = ROOT ? [make('a', { href: '/', textContent: 'Simulations' })] : [];
+  const hub = ROOT ? [make('a', { href: '/', textContent: TITLES.Simulations })] : [];
   document.querySelector('.site')?.replaceChildren(...hub, ...(links.length > 1 ? links : []));
   // What leads to a page that may not be there, as the documentation that was not built.
   for (const part of document.querySelectorAll('[data-needs]')) part.hidden = !pages.some(({ path }) => path === part.dataset.needs);
@@ -31,7 +35,8 @@ async function followCount(link, title, address) {
 }
 
 function showCount(link, title, total) {
-  const badge = make('span', { className: 'badge needs-help count', textContent: total, ariaLabel: `${total} alarms`, title: `${total} alarms` });
+  const label = plural(total, '{n} alarm', '{n} alarms');
+  const badge = make('span', { className: 'badge needs-help count', textContent: total, ariaLabel: label, title: label });
   badge.setAttribute('role', 'img');
   link.replaceChildren(title, ...(total ? [badge] : []));
 }

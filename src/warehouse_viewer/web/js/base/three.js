@@ -4,7 +4,7 @@
 
 export const {
   AlwaysDepth, Box3, BoxBufferGeometry, BufferAttribute, BufferGeometry, CanvasTexture, Color, CubeTexture, CylinderBufferGeometry, DataTexture,
-  DepthTexture, DirectionalLight, DoubleSide, DynamicDrawUsage, EventDispatcher, Float32BufferAttribute, FloatType, Fog, Frustum, Group,
+  DepthTexture, DirectionalLight, DoubleSide, DynamicDrawUsage, EventDispatcher, ExtrudeBufferGeometry, Float32BufferAttribute, FloatType, Fog, Frustum, Group,
   HemisphereLight, InstancedBufferAttribute, InstancedBufferGeometry, InstancedInterleavedBuffer, InstancedMesh, InterleavedBufferAttribute, LineBasicMaterial, LineSegments, LinearFilter,
   LinearMipMapLinearFilter, LinearMipMapNearestFilter, MOUSE, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, MeshStandardMaterial, Object3D,
   OrthographicCamera, PCFSoftShadowMap, Path, PerspectiveCamera, Plane, PlaneBufferGeometry, Quaternion, RGBAFormat, Raycaster, RepeatWrapping,

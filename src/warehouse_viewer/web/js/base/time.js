@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Times and spans of time in words: the same on every page.
 
+import { tr } from '../language/texts.js';
+
 const pad = (n) => String(n).padStart(2, '0');
 
 /** Simulated time [s] since the beginning, as 0:02:05; `hasTenths`: as 0:02:05.3. */
@@ -28,12 +30,12 @@ export function lasting(seconds) {
   const s = Math.max(0, Math.round(seconds));
   if (s < 100) return `${s} s`;
   const minutes = Math.round(s / 60);
-  return minutes < 60 ? `${minutes} min` : `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
+  return minutes < 60 ? tr`${minutes} min` : tr`${Math.floor(minutes / 60)} h ${minutes % 60} min`;
 }
 
 /** A span [s] on an axis: '12 min', or '3:45' where it is not a whole number of minutes. */
 export function before(seconds) {
   const s = Math.round(seconds);
   if (s < 60) return `${s} s`;
-  return s % 60 ? `${Math.floor(s / 60)}:${pad(s % 60)}` : `${s / 60} min`;
+  return s % 60 ? `${Math.floor(s / 60)}:${pad(s % 60)}` : tr`${s / 60} min`;
 }

@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // The characters of a layout file, as doc/how-to/editor.md lists them.
 
+import { tr } from '../language/texts.js';
+
 export const NOTHING = ' ', FLOOR = '.', PLACE = 's';
 export const NEXT_STATION = 'A–Z'; // as a brush: a station with the next letter that is free
 
 /** The characters in the order of the palette; `look` names the colour, --cell-… of palette.py. */
 export const CHARACTERS = [
-  { char: '.', word: 'floor', hint: 'floor, driven any way', look: 'floor' },
-  { char: '>', word: 'one way right', hint: 'one-way street to the right', look: 'street' },
-  { char: '<', word: 'one way left', hint: 'one-way street to the left', look: 'street' },
-  { char: '^', word: 'one way up', hint: 'one-way street up', look: 'street' },
-  { char: 'v', word: 'one way down', hint: 'one-way street down', look: 'street' },
-  { char: '-', word: 'both ways ↔', hint: 'street driven both ways, left and right', look: 'street' },
-  { char: '|', word: 'both ways ↕', hint: 'street driven both ways, up and down', look: 'street' },
-  { char: 's', word: 'storage place', hint: 'a storage unit can stand here', look: 'storage' },
-  { char: 'p', word: 'parking', hint: 'robots without work wait here', look: 'parking' },
-  { char: 'c', word: 'charging', hint: 'a charging place, also parking', look: 'charging' },
-  { char: NEXT_STATION, word: 'station', hint: 'where units are served; the next free letter', look: 'service' },
-  { char: '=', word: 'conveyor belt', hint: 'a conveyor belt, beside a picking station', look: 'belt' },
-  { char: '#', word: 'wall', hint: 'a wall or pillar, a metre high', look: 'wall' },
-  { char: 'x', word: 'keep out', hint: 'floor where no robot drives', look: 'keep_out' },
-  { char: ' ', word: 'no floor', hint: 'erases', look: 'nothing', key: 'space' },
+  { char: '.', word: tr`floor`, hint: tr`floor, driven any way`, look: 'floor' },
+  { char: '>', word: tr`one way right`, hint: tr`one-way street to the right`, look: 'street' },
+  { char: '<', word: tr`one way left`, hint: tr`one-way street to the left`, look: 'street' },
+  { char: '^', word: tr`one way up`, hint: tr`one-way street up`, look: 'street' },
+  { char: 'v', word: tr`one way down`, hint: tr`one-way street down`, look: 'street' },
+  { char: '-', word: tr`both ways ↔`, hint: tr`street driven both ways, left and right`, look: 'street' },
+  { char: '|', word: tr`both ways ↕`, hint: tr`street driven both ways, up and down`, look: 'street' },
+  { char: 's', word: tr`storage place`, hint: tr`a storage unit can stand here`, look: 'storage' },
+  { char: 'p', word: tr`parking`, hint: tr`robots without work wait here`, look: 'parking' },
+  { char: 'c', word: tr`charging`, hint: tr`a charging place, also parking`, look: 'charging' },
+  { char: NEXT_STATION, word: tr`station`, hint: tr`where units are served; the next free letter`, look: 'service' },
+  { char: '=', word: tr`conveyor belt`, hint: tr`a conveyor belt, beside a picking station`, look: 'belt' },
+  { char: '#', word: tr`wall`, hint: tr`a wall or pillar, a metre high`, look: 'wall' },
+  { char: 'x', word: tr`keep out`, hint: tr`floor where no robot drives`, look: 'keep_out' },
+  { char: ' ', word: tr`no floor`, hint: tr`erases`, look: 'nothing', key: 'space' },
 ];
 
 const LOOKS = Object.fromEntries(CHARACTERS.map(({ char, look }) => [char, look]));

@@ -2,6 +2,7 @@
 // Has the server check the drawing soon after each change, also amid a stroke, and lists what is wrong with it.
 
 import { $, make } from '../base/dom.js';
+import { tr } from '../language/texts.js';
 import { ask } from './server.js';
 import { textOf } from './text.js';
 
@@ -16,7 +17,7 @@ export class Checker {
 
   later() {
     this.isStale = true;
-    $('faults-state').textContent = 'checking …';
+    $('faults-state').textContent = tr`checking …`;
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.check(), SOON);
   }
@@ -30,7 +31,7 @@ export class Checker {
       await this.take(this.editor.drawing);
       this.took = performance.now() - began;
     } catch (error) {
-      $('faults-state').textContent = `not checked: ${error.message}`;
+      $('faults-state').textContent = tr`not checked: ${error.message}`;
     }
     this.isAsking = false;
     if (this.isStale) this.check();
@@ -50,7 +51,7 @@ export class Checker {
 
   show(faults, lanesFound) {
     Object.assign(this.editor, { faults, lanesFound });
-    $('faults-state').textContent = !this.editor.bounds ? 'nothing drawn yet' : faults.length ? '' : 'none';
+    $('faults-state').textContent = !this.editor.bounds ? tr`nothing drawn yet` : faults.length ? '' : tr`none`;
     $('faults-count').textContent = faults.length || '';
     $('faults').replaceChildren(...faults.slice(0, MOST).map((fault) => (
       make('li', {}, make('button', { type: 'button', textContent: fault.text, click: () => this.editor.showCells(fault.cells) })))));

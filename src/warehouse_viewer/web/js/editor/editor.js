@@ -2,6 +2,7 @@
 // The layout editor: one drawing, one tool, one brush; listeners are notified of changes.
 
 import { $ } from '../base/dom.js';
+import { tr } from '../language/texts.js';
 import { clear, copied, mirrored, repeated, replaced, turned } from './blocks.js';
 import { FLOOR } from './characters.js';
 import { Drawing } from './drawing.js';
@@ -189,7 +190,7 @@ export class Editor {
   copy() {
     if (!this.selection) return;
     this.clipboard = copied(this.drawing, this.selection);
-    this.say(`Copied ${this.clipboard.width} × ${this.clipboard.height} cells; paste them by Ctrl+V`);
+    this.say(tr`Copied ${this.clipboard.width} × ${this.clipboard.height} cells; paste them by Ctrl+V`);
     this.notify('state');
   }
 
@@ -201,7 +202,7 @@ export class Editor {
 
   paste() {
     if (!this.clipboard) {
-      this.say('Nothing was copied yet: mark an area, then copy', 'refused');
+      this.say(tr`Nothing was copied yet: mark an area, then copy`, 'refused');
       return;
     }
     const { pointer, cursor } = this;

@@ -5,6 +5,7 @@ import { $, make, on } from '../base/dom.js';
 import { ask as question, confirmed } from '../base/question.js';
 import { ask as request, send } from '../base/request.js';
 import { ROOT } from '../base/root.js';
+import { tr } from '../language/texts.js';
 import { ask } from './server.js';
 import { textOf } from './text.js';
 
@@ -29,7 +30,7 @@ export class Files {
   prepare() {
     const sizes = this.about.presets;
     $('new-size').append(...Object.keys(sizes).map((name) => make('option', { value: name, textContent: name })),
-      make('option', { value: '', textContent: 'own counts' }));
+      make('option', { value: '', textContent: tr`own counts` }));
     on($('new-size'), 'change', () => this.showCounts());
     for (const what of COUNTS) {
       $(`new-${what}`).max = this.about.limits[what === 'units' ? 'shelves' : what];
@@ -37,7 +38,7 @@ export class Files {
     }
     this.showCounts();
     const { file, saves } = this.about;
-    $('save').title = saves ? `Save to ${file} (Ctrl+S)` : 'Download as NAME.layout.yaml (Ctrl+S)';
+    $('save').title = saves ? tr`Save to ${file} (Ctrl+S)` : tr`Download as NAME.layout.yaml (Ctrl+S)`;
   }
 
   showCounts() {
@@ -49,12 +50,12 @@ export class Files {
     const files = [...list];
     $('file').value = '';
     await this.attempt(async () => {
-      if (files.some((file) => file.size > MOST)) throw new Error('a file of up to 5 MB was expected');
+      if (files.some((file) => file.size > MOST)) throw new Error(tr`a file of up to 5 MB was expected`);
       const contents = await Promise.all(files.map(async (file) => [file.name, await base64(file)]));
       const { drawing, told: notes } = await ask('POST', '/read', { files: Object.fromEntries(contents) });
       this.editor.open(drawing);
       showLost(notes);
-      this.editor.say(`Opened ${files.map((f) => f.name).join(', ')}`, 'done');
+      this.editor.say(tr`Opened ${files.map((f) => f.name).join(', ')}`, 'done');
     });
   }
 
@@ -83,7 +84,7 @@ export class Files {
     const href = URL.createObjectURL(new Blob([text], { type: 'text/yaml' }));
     make('a', { href, download: name }).click();
     setTimeout(() => URL.revokeObjectURL(href), 10000);
-    this.editor.say(`Downloaded ${name}`, 'done');
+    this.editor.say(tr`Downloaded ${name}`, 'done');
   }
 
   async create() {
@@ -113,13 +114,13 @@ export function showLost(notes) {
 
 /** Builds the drawing in place of the warehouse that runs. */
 export async function build(editor, post) {
-  const name = editor.drawing.name || 'this layout';
-  const isSure = await confirmed(`Build ${name}?`, 'It replaces the running warehouse. The robots and the stock there are lost.', 'Build');
+  const name = editor.drawing.name || tr`this layout`;
+  const isSure = await confirmed(tr`Build ${name}?`, tr`It replaces the running warehouse. The robots and the stock there are lost.`, tr`Build`);
   if (!isSure) return;
   try {
-    editor.say('building …');
+    editor.say(tr`building …`);
     const { message } = await post('/warehouse', { layout: textOf(editor.drawing).text });
-    editor.say(message || 'built', 'done');
+    editor.say(message || tr`built`, 'done');
   } catch (error) {
     editor.say(error.message, 'refused');
   }

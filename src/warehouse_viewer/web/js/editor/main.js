@@ -3,6 +3,7 @@
 
 import { post, reloadIfLockedOut } from '../base/api.js';
 import { $, enable, make, on, onTheme } from '../base/dom.js';
+import { tr } from '../language/texts.js';
 import { Checker } from './checker.js';
 import { Editor } from './editor.js';
 import { build, compare, Files, showLost, start } from './files.js';
@@ -43,8 +44,8 @@ function begin(editor, store, about) {
   if (!kept) showLost(about.told);
   if (!kept || (about.drawing && Store.isSame(kept.drawing, about.drawing))) return;
   const when = new Date(kept.time).toLocaleString([], { dateStyle: 'medium', timeStyle: 'short' });
-  $('notice-text').textContent = `Your last drawing is back, from ${when}.`;
-  $('notice-button').textContent = about.drawing ? 'Take the file instead' : 'Start with empty paper';
+  $('notice-text').textContent = tr`Your last drawing is back, from ${when}.`;
+  $('notice-button').textContent = about.drawing ? tr`Take the file instead` : tr`Start with empty paper`;
   $('notice').hidden = false;
   on($('notice-button'), 'click', () => {
     editor.open(about.drawing ?? null);
@@ -61,9 +62,9 @@ function follow(editor) {
 
 function help() {
   const more = { ...Object.fromEntries(Object.entries(KEYS).map(([key, id]) => [key, $(id).title || $(id).textContent])),
-    'arrows': 'move the cursor; with shift they mark an area', 'enter': 'draw at the cursor; a second time ends a shape',
-    'delete': 'erase what is marked', 'escape': 'give up', 'ctrl+z, ctrl+y': 'undo, redo', 'ctrl+c, x, v, a': 'copy, cut, paste, mark all',
-    'A … Z': 'a station with that letter', 'wheel': 'zoom; the right button moves the paper' };
+    'arrows': tr`move the cursor; with shift they mark an area`, 'enter': tr`draw at the cursor; a second time ends a shape`,
+    'delete': tr`erase what is marked`, 'escape': tr`give up`, 'ctrl+z, ctrl+y': tr`undo, redo`, 'ctrl+c, x, v, a': tr`copy, cut, paste, mark all`,
+    'A … Z': tr`a station with that letter`, 'wheel': tr`zoom; the right button moves the paper` };
   $('keys').append(...Object.entries(more).flatMap(([key, meaning]) => [
     make('dt', {}, make('kbd', { textContent: key })), make('dd', { textContent: meaning.replace(/ \(.*\)$/, '') })]));
   on($('help'), 'click', () => $('helper').showModal());
@@ -80,7 +81,7 @@ async function main() {
   begin(editor, store, about);
   await parts.files.openDesigned();
   store.follow();
-  enable($('build'), about.builds ? '' : 'no warehouse runs here; roslaunch warehouse_sim warehouse.launch layout:=FILE builds the saved file');
+  enable($('build'), about.builds ? '' : tr`no warehouse runs here; roslaunch warehouse_sim warehouse.launch layout:=FILE builds the saved file`);
   $('start').hidden = !about.starts;
   $('build').hidden = about.starts;
   on($('start'), 'click', () => start(editor));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The upper of the two canvases: lanes, names, faults, the selection, what is about to be drawn.
 
+import { tr } from '../language/texts.js';
 import { isLetter, lookOf, NEXT_STATION } from './characters.js';
 import { same } from './drawing.js';
 import { drawHeat } from './heat_layer.js';
@@ -191,5 +192,5 @@ export class Overlay {
 /** The lines at a station: its name, and its result in a trial. */
 function labelOf(name, notes, scale) {
   if (!notes) return [name];
-  return scale < ROOMY ? [`${name}: ${notes.queue}`] : [name, `queue ${notes.queue}, busy ${notes.busy}`];
+  return scale < ROOMY ? [`${name}: ${notes.queue}`] : [name, tr`queue ${notes.queue}, busy ${notes.busy}`];
 }

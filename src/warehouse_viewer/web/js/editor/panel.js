@@ -2,6 +2,7 @@
 // Name, spacing, counts and sizes beside the drawing; and what is under the pointer below it.
 
 import { $, on } from '../base/dom.js';
+import { tr } from '../language/texts.js';
 import { CHARACTERS, isLetter } from './characters.js';
 import { metres } from './rulers.js';
 
@@ -45,7 +46,7 @@ export class Panel {
   /** A field was changed: what it says, where that can be meant. */
   take(field) {
     const text = $(`own-${field}`).value.trim(), value = READ[field](text);
-    if (value === undefined) this.editor.say(`${text || 'nothing'}: ${EXPECTED[field]} was expected`, 'refused');
+    if (value === undefined) this.editor.say(tr`${text || tr`nothing`}: ${EXPECTED[field]} was expected`, 'refused');
     else this.editor.change((drawing) => { Object.assign(drawing, value); });
     this.show();
   }
@@ -57,7 +58,7 @@ export class Panel {
     $('own-units').value = unitsText(drawing);
     $('own-robots').value = drawing.robotCount;
     $('own-items').value = drawing.stock || (drawing.items === null ? '' : drawing.items);
-    $('own-items').placeholder = `${drawing.itemCount} (4 a unit)`;
+    $('own-items').placeholder = tr`${drawing.itemCount} (4 a unit)`;
     $('own-items').disabled = Boolean(drawing.stock);
     const size = bounds ? [bounds.right - bounds.left, bounds.top - bounds.bottom] : [0, 0];
     const counts = { robots: drawing.robotCount, parking: drawing.count('p') + drawing.count('c'), units: drawing.unitCount,
@@ -65,7 +66,7 @@ export class Panel {
     for (const [what, count] of Object.entries(counts)) $(`count-${what}`).textContent = count;
     $('undo').disabled = !history.past.length;
     $('redo').disabled = !history.future.length;
-    document.title = `${drawing.name || 'Layout'} – Kiva warehouse`;
+    document.title = tr`${drawing.name || tr`Layout`} – Kiva warehouse`;
   }
 
   showState() {
@@ -81,23 +82,23 @@ export class Panel {
 const number = (id) => Math.max(0, Math.floor($(id).valueAsNumber || 0));
 
 const unitsText = ({ units, isShare, unitCount }) => (
-  Array.isArray(units) ? `${unitCount} (each in its place)` : isShare ? `${Math.round(units * 1000) / 10} %` : units);
+  Array.isArray(units) ? tr`${unitCount} (each in its place)` : isShare ? `${Math.round(units * 1000) / 10} %` : units);
 
 /** Cell, metres and what is drawn there. */
 function whereText(cell, bounds, drawing) {
   const [column, row] = [cell[0] - (bounds?.left ?? 0), cell[1] - (bounds?.bottom ?? 0)];
   const char = drawing.get(...cell), owner = drawing.ownerOf(cell);
-  const word = owner ? `${owner.station.name}: ${owner.part}` : isLetter(char) ? `station ${char}` : WORDS[char];
+  const word = owner ? `${owner.station.name}: ${owner.part}` : isLetter(char) ? tr`station ${char}` : WORDS[char];
   return `[${column}, ${row}]   ${metres((column + 0.5) * drawing.spacing)} m, ${metres((row + 0.5) * drawing.spacing)} m   ${word}`;
 }
 
 const whole = (text) => (/^\d{1,6}$/.test(text) ? Number(text) : undefined);
 const EXPECTED = {
-  name: 'a name',
-  spacing: 'the edge of a cell from 0.1 to 10 metres',
-  units: 'a share like 85 % or a count',
-  robots: 'a count',
-  items: 'a count, or nothing',
+  name: tr`a name`,
+  spacing: tr`the edge of a cell from 0.1 to 10 metres`,
+  units: tr`a share like 85 % or a count`,
+  robots: tr`a count`,
+  items: tr`a count, or nothing`,
 };
 const READ = {
   name: (text) => ({ name: text }),

@@ -2,6 +2,7 @@
 // The stations: which there are, and the chosen one's name, kind and lane.
 
 import { $, make, on } from '../base/dom.js';
+import { tr } from '../language/texts.js';
 
 export class StationPanel {
   constructor(editor) {
@@ -28,7 +29,7 @@ export class StationPanel {
     const name = $('station-name').value.trim(), { station, drawing } = this.editor;
     const isTaken = drawing.stations.some((s) => s !== station && s.name === name);
     if (!name || name.includes('/') || name.length > 60 || isTaken) {
-      this.editor.say(isTaken ? `another station is called ${name}` : 'a name of up to 60 characters without / was expected', 'refused');
+      this.editor.say(isTaken ? tr`another station is called ${name}` : tr`a name of up to 60 characters without / was expected`, 'refused');
       $('station-name').value = station?.name ?? '';
     } else this.alter((s) => { s.name = name; });
   }
@@ -59,7 +60,7 @@ export class StationPanel {
 }
 
 function laneText({ queue, exit }, lane) {
-  if (queue.length && exit.length) return `queue of ${queue.length} and exit of ${exit.length} cells`;
-  const drawn = queue.length ? `queue of ${queue.length} cells, no exit drawn` : exit.length ? `exit of ${exit.length} cells, no queue drawn` : 'no lane drawn';
-  return lane ? `${drawn}: found by itself, dashed` : `${drawn}: choose queue or exit, then drag`;
+  if (queue.length && exit.length) return tr`queue of ${queue.length} and exit of ${exit.length} cells`;
+  const drawn = queue.length ? tr`queue of ${queue.length} cells, no exit drawn` : exit.length ? tr`exit of ${exit.length} cells, no queue drawn` : tr`no lane drawn`;
+  return lane ? tr`${drawn}: found by itself, dashed` : tr`${drawn}: choose queue or exit, then drag`;
 }

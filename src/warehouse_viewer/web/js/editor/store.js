@@ -2,6 +2,7 @@
 // Keeps what is drawn in the browser, so that a closed tab loses nothing.
 
 import { on } from '../base/dom.js';
+import { tr } from '../language/texts.js';
 import { drawingOf, jsonOf, textOf } from './text.js';
 
 const SOON = 300; // after a change [ms]
@@ -27,7 +28,7 @@ export class Store {
     try {
       localStorage.setItem(this.key, JSON.stringify({ time: Date.now(), drawing: jsonOf(this.editor.drawing) }));
     } catch {
-      this.editor.say('The browser has no room to keep this drawing: save it as a file', 'refused');
+      this.editor.say(tr`The browser has no room to keep this drawing: save it as a file`, 'refused');
     }
   }
 

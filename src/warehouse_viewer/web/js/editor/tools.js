@@ -2,6 +2,7 @@
 // What a pointer does on the paper: each tool has down(cell), move(cell), up(cell), cancel(), and
 // says in `ghost` what it is about to do. The keys lead a tool the same way, by the cursor.
 
+import { tr } from '../language/texts.js';
 import { isLetter, NEXT_STATION } from './characters.js';
 import { putIn } from './blocks.js';
 import { clicked, drawLane, extended, laneOf } from './lanes.js';
@@ -112,7 +113,7 @@ class Fill extends Tool {
   down(cell) {
     const { editor } = this, cells = areaCells(editor.drawing, cell);
     if (!cells) {
-      editor.say('The empty paper has no end: draw a closed outline first, or a rectangle', 'refused');
+      editor.say(tr`The empty paper has no end: draw a closed outline first, or a rectangle`, 'refused');
       return;
     }
     editor.begin();
@@ -155,7 +156,7 @@ class Lane extends Tool {
     const { editor } = this, owner = editor.drawing.ownerOf(cell);
     if (owner?.part === 'service') editor.choose(owner.station);
     if (!editor.station) {
-      editor.say('Choose a station first: click its letter, or its name in the list', 'refused');
+      editor.say(tr`Choose a station first: click its letter, or its name in the list`, 'refused');
       return;
     }
     this.from = cell;
@@ -224,13 +225,13 @@ export class Hand extends Tool {
 
 /** The tools by name: [key, word, what it does, tool]. */
 export const TOOLS = {
-  pen: ['d', 'draw', 'Draw freehand', (e) => new Pen(e)],
-  line: ['l', 'line', 'Draw a straight line', (e) => new Line(e)],
-  rectangle: ['r', 'rectangle', 'Draw a full rectangle', (e) => new Rectangle(e)],
-  outline: ['o', 'outline', 'Draw the edge of a rectangle: walls, a ring of streets', (e) => new Outline(e)],
-  fill: ['f', 'fill', 'Fill an area of one character', (e) => new Fill(e)],
-  select: ['m', 'mark', 'Mark an area to copy, mirror or repeat; click a station to choose it', (e) => new Select(e)],
-  queue: ['q', 'queue', 'Draw the queue of the chosen station, up to its letter', (e) => new Lane(e, 'queue')],
-  exit: ['e', 'exit', 'Draw the way out of the chosen station, from its letter on', (e) => new Lane(e, 'exit')],
-  hand: ['h', 'move', 'Move the paper (also with the right mouse button or two fingers)', (e) => new Hand(e)],
+  pen: ['d', tr`draw`, tr`Draw freehand`, (e) => new Pen(e)],
+  line: ['l', tr`line`, tr`Draw a straight line`, (e) => new Line(e)],
+  rectangle: ['r', tr`rectangle`, tr`Draw a full rectangle`, (e) => new Rectangle(e)],
+  outline: ['o', tr`outline`, tr`Draw the edge of a rectangle: walls, a ring of streets`, (e) => new Outline(e)],
+  fill: ['f', tr`fill`, tr`Fill an area of one character`, (e) => new Fill(e)],
+  select: ['m', tr`mark`, tr`Mark an area to copy, mirror or repeat; click a station to choose it`, (e) => new Select(e)],
+  queue: ['q', tr`queue`, tr`Draw the queue of the chosen station, up to its letter`, (e) => new Lane(e, 'queue')],
+  exit: ['e', tr`exit`, tr`Draw the way out of the chosen station, from its letter on`, (e) => new Lane(e, 'exit')],
+  hand: ['h', tr`move`, tr`Move the paper (also with the right mouse button or two fingers)`, (e) => new Hand(e)],
 };

@@ -3,12 +3,13 @@
 
 import { $, make, on, press } from '../base/dom.js';
 import { swatches, topOf } from '../base/heat_scale.js';
-import { number, percent } from '../base/numbers.js';
+import { number, percent } from '../language/numbers.js';
+import { tr } from '../language/texts.js';
 import { clock } from '../base/time.js';
 import { send } from './server.js';
 import { textOf } from './text.js';
 
-const LEGEND = { traffic: 'loaded robots through a cell', waiting: 'seconds that robots queued in a cell' };
+const LEGEND = { traffic: tr`loaded robots through a cell`, waiting: tr`seconds that robots queued in a cell` };
 
 export class Trial {
   constructor(editor) {
@@ -26,12 +27,12 @@ export class Trial {
     const abort = new AbortController();
     const { text, origin } = textOf(this.editor.drawing);
     Object.assign(this, { abort, before: this.result?.pieces_per_hour });
-    this.phase('running', 'robots come in …');
+    this.phase('running', tr`robots come in …`);
     try {
       const answer = await send('POST', '/try', text, abort.signal);
       await linesOf(answer, (line) => this.take(line, origin));
     } catch (error) {
-      if (this.abort === abort) this.phase('failed', error.name === 'AbortError' ? 'cancelled' : error.message);
+      if (this.abort === abort) this.phase('failed', error.name === 'AbortError' ? tr`cancelled` : error.message);
     }
     if (this.abort === abort) this.abort = null;
   }
@@ -44,7 +45,7 @@ export class Trial {
       $('trial-bar').max = of;
       $('trial-bar').value = time;
       const queues = Object.values(waiting).reduce((a, b) => a + b, 0);
-      this.phase('running', `${clock(time)} of ${clock(of)}: ${pieces} pieces, ${queues} units under way`);
+      this.phase('running', tr`${clock(time)} of ${clock(of)}: ${pieces} pieces, ${queues} units under way`);
     }
   }
 
@@ -53,8 +54,8 @@ export class Trial {
     this.phase('done', '');
     $('trial-pieces').textContent = number(result.pieces_per_hour);
     const share = result.pieces_per_hour / Math.max(1, result.most_pieces_per_hour);
-    $('trial-of').textContent = `pieces an hour, ${Math.round(100 * share)} % of what the stations can do${this.comparison(result)}`;
-    $('trial-text').textContent = `${result.pieces} pieces and ${result.orders} orders in ${clock(result.seconds)}, ideal robots, from a standstill`;
+    $('trial-of').textContent = tr`pieces an hour, ${Math.round(100 * share)} % of what the stations can do${this.comparison(result)}`;
+    $('trial-text').textContent = tr`${result.pieces} pieces and ${result.orders} orders in ${clock(result.seconds)}, ideal robots, from a standstill`;
     $('trial-minutes').replaceChildren(...bars(result.per_minute));
     const rows = result.stations.map((s) => [s.name, { queue: number(s.queue, 1), busy: percent(s.busy) }]);
     $('trial-stations').replaceChildren(...rows.map(([name, { queue, busy }]) => (
@@ -64,7 +65,7 @@ export class Trial {
   }
 
   comparison({ pieces_per_hour: now }) {
-    return this.before ? `; ${number(this.before)} before${now > this.before ? ' ↑' : now < this.before ? ' ↓' : ''}` : '';
+    return this.before ? tr`; ${number(this.before)} before${now > this.before ? ' ↑' : now < this.before ? ' ↓' : ''}` : '';
   }
 
   show(kind) {
@@ -72,7 +73,7 @@ export class Trial {
     for (const button of $('trial-kinds').children) press(button, button.dataset.heat === kind);
     const values = this.result[kind] ?? [], top = topOf(values);
     this.editor.heat = kind === 'none' ? null : { values, width: this.result.width, origin: this.origin, top };
-    $('trial-legend').textContent = kind === 'none' ? '' : `${LEGEND[kind]}: 0 to ${Math.round(top)}`;
+    $('trial-legend').textContent = kind === 'none' ? '' : tr`${LEGEND[kind]}: 0 to ${Math.round(top)}`;
     $('trial-scale').hidden = kind === 'none';
     this.editor.redrawOverlay();
   }
@@ -90,7 +91,7 @@ export class Trial {
   /** The drawing has changed: the figures are of an earlier one. */
   age() {
     if ($('trial').dataset.phase !== 'done' || $('trial').hidden) return;
-    this.phase('done', 'This was before the last change; try again.');
+    this.phase('done', tr`This was before the last change; try again.`);
     this.editor.notes = null;
   }
 
@@ -118,7 +119,7 @@ async function linesOf(answer, take) {
 function bars(values) {
   const most = Math.max(1, ...values);
   return values.map((value, i) => {
-    const out = make('i', { title: `minute ${i + 1}: ${value} pieces` });
+    const out = make('i', { title: tr`minute ${i + 1}: ${value} pieces` });
     out.style.height = `${Math.max(2, (100 * value) / most)}%`;
     return out;
   });

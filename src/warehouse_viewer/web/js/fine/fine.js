@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The fine picture, which a graphics card draws: shadows of a light, materials that reflect a hall, concrete,
-// walls and fog, rings and lamps of robots, numbers of storage units near by. The plain picture stays
+// walls and fog, rings and lamps of robots, racks with beams, bevels, numbers of storage units near by. The plain picture stays
 // beneath, and comes back when this is off.
 
 import * as THREE from '/three/build/three.module.js';
@@ -8,6 +8,7 @@ import { Ground } from './ground.js';
 import { Marks } from './marks.js';
 import { dress, undress } from './metal.js';
 import { Numbers } from './numbers.js';
+import { Shapes } from './shapes.js';
 import { Sunlight } from './sunlight.js';
 
 /** Light of day and of night: sky, sun, and how dark shadows are. */
@@ -24,6 +25,7 @@ export class Fine {
     this.sunlight = new Sunlight(stage);
     this.ground = new Ground(stage);
     this.marks = new Marks(actors.robots, world);
+    this.shapes = new Shapes(actors);
     this.numbers = new Numbers(stage, world, actors);
   }
 
@@ -42,12 +44,14 @@ export class Fine {
   renew() {
     if (!this.isOn) return;
     this.marks = new Marks(this.actors.robots, this.world);
+    this.shapes = new Shapes(this.actors);
     this.dress();
     this.ground.renew();
     this.numbers.renew();
   }
 
   dress() {
+    this.shapes.add();
     for (const crowd of this.actors.crowds) dress(crowd, this.stage.renderer);
     this.marks.add();
   }
@@ -55,6 +59,7 @@ export class Fine {
   undress() {
     this.marks.remove();
     for (const crowd of this.actors.crowds) undress(crowd);
+    this.shapes.remove();
   }
 
   setTheme(theme) {

@@ -3,6 +3,7 @@
 
 import { $, on, press } from '../base/dom.js';
 import { send } from '../base/request.js';
+import { tr } from '../language/texts.js';
 import { World } from '../base/world.js';
 import { Player } from '../replay/player.js';
 import { Recording } from '../replay/recording.js';
@@ -54,7 +55,7 @@ export class Example {
   run() {
     $('example').hidden = !this.isReady;
     press($('example-play'), this.isOn);
-    $('example-play').textContent = this.isOn ? 'Pause' : 'Play';
+    $('example-play').textContent = this.isOn ? tr`Pause` : tr`Play`;
     const plays = this.isReady && this.isWanted && this.isOn && !document.hidden;
     if (plays && !this.player.isPlaying) this.player.play();
     else if (!plays) this.player.pause();

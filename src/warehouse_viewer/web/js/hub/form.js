@@ -2,6 +2,7 @@
 // The form of a new warehouse: a field for each argument of the launch files, with its documentation.
 
 import { $, make, on } from '../base/dom.js';
+import { tr } from '../language/texts.js';
 import * as server from './server.js';
 
 const FIRST = ['size', 'layout', 'robots', 'world', 'orders', 'realism', 'rtf', 'seed'];
@@ -37,7 +38,7 @@ export class WishForm {
 
   fieldOf(row) {
     const input = row.choices.length
-      ? make('select', { name: row.name }, new Option('(default)', ''), ...row.choices.filter(Boolean).map((text) => new Option(text, text)))
+      ? make('select', { name: row.name }, new Option(tr`(default)`, ''), ...row.choices.filter(Boolean).map((text) => new Option(text, text)))
       : make('input', { name: row.name, placeholder: row.default, autocomplete: 'off', spellcheck: false });
     if (row.name === 'world') input.setAttribute('list', 'worlds');
     const wrong = make('span', { className: 'wrong', role: 'alert', hidden: true });
@@ -69,7 +70,7 @@ export class WishForm {
     const answer = await fetch('/api/v1/simulations', {
       method: 'POST', body: JSON.stringify(this.wish()), headers: { 'content-type': 'application/json' },
     }).catch(() => null);
-    const body = await answer?.json().catch(() => ({})) ?? { detail: 'the hub does not answer' };
+    const body = await answer?.json().catch(() => ({})) ?? { detail: tr`the hub does not answer` };
     if (answer?.ok) {
       $('wish').close();
       this.done(body);
@@ -83,7 +84,7 @@ export class WishForm {
     $('wish-answer').hidden = !text || Boolean(field);
     $('wish-answer').textContent = text;
     if (!field) return;
-    field.wrong.textContent = nearest ? `${text} Nearest: ${nearest}.` : text;
+    field.wrong.textContent = nearest ? tr`${text} Nearest: ${nearest}.` : text;
     field.wrong.hidden = false;
     field.label.closest('details')?.setAttribute('open', '');
     field.input.focus();
@@ -92,7 +93,7 @@ export class WishForm {
 
 /** A button that opens a file, whose text is then the value of the input. */
 function fileInput(input) {
-  const file = make('input', { type: 'file', ariaLabel: `a file for ${input.name}` });
+  const file = make('input', { type: 'file', ariaLabel: tr`a file for ${input.name}` });
   on(file, 'change', async () => {
     if (!file.files[0]) return;
     input.dataset.content = await file.files[0].text();

@@ -2,6 +2,7 @@
 // The lists below the warehouses: recordings, and the journal.
 
 import { $, make } from '../base/dom.js';
+import { tr } from '../language/texts.js';
 import { durationOf } from './card.js';
 import * as server from './server.js';
 
@@ -36,14 +37,14 @@ export class Lists {
   showJournal(news) {
     this.entries = [...news.reverse(), ...this.entries].slice(0, SHOWN);
     $('journal-list').replaceChildren(...this.entries.map(entryOf));
-    if (!this.entries.length) $('journal-list').append(make('li', { className: 'dim', textContent: 'Nothing was changed yet.' }));
+    if (!this.entries.length) $('journal-list').append(make('li', { className: 'dim', textContent: tr`Nothing was changed yet.` }));
   }
 }
 
 function recordingOf({ name, kind, url, seconds, time, reason }) {
-  const title = { example: 'A shift at work (an example)', simulation: name }[kind] ?? name;
+  const title = { example: tr`A shift at work (an example)`, simulation: name }[kind] ?? name;
   const from = kind === 'example' ? '' : `, ${new Date(1000 * time).toLocaleString()}`;
-  const about = url ? `${durationOf(seconds)} of simulated time${from}` : '';
+  const about = url ? tr`${durationOf(seconds)} of simulated time${from}` : '';
   return make('li', {}, url ? make('a', { href: url, textContent: title }) : title,
     make('span', { className: 'dim', textContent: [about, reason].filter(Boolean).join('; ') }));
 }
@@ -51,7 +52,7 @@ function recordingOf({ name, kind, url, seconds, time, reason }) {
 function entryOf({ wall, kind, who, action, simulation, arguments: asked, outcome, done }) {
   const where = simulation && simulation !== '-' ? ` (${simulation})` : '';
   return make('li', {}, make('time', { className: 'dim', dateTime: wall, textContent: wall.slice(0, 19).replace('T', ' ') }),
-    make('b', { textContent: `${kind === 'assistant' ? 'assistant ' : ''}${who}` }),
+    make('b', { textContent: `${kind === 'assistant' ? tr`assistant ` : ''}${who}` }),
     make('span', { textContent: `${action}${where} ${asked}` }),
     make('span', { className: done ? 'dim' : 'refused', textContent: outcome }));
 }

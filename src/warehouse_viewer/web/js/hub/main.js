@@ -3,6 +3,7 @@
 
 import { $, make, on, setText } from '../base/dom.js';
 import { confirmed } from '../base/question.js';
+import { tr } from '../language/texts.js';
 import { Card } from './card.js';
 import { WishForm } from './form.js';
 import { Lists } from './lists.js';
@@ -37,7 +38,7 @@ class Page {
   async look() {
     const rows = await server.list().catch(() => null);
     $('link').dataset.state = rows ? 'live' : 'away';
-    setText($('link'), rows ? 'live' : 'the hub does not answer');
+    setText($('link'), rows ? tr`live` : tr`the hub does not answer`);
     if (!rows) return;
     this.show(rows);
     await this.lists.look();
@@ -69,9 +70,9 @@ class Page {
     const card = new Card(name, {
       'Insert a world': (row) => this.openInsert(row),
       'Save as': (row) => this.saving.open(row.name),
-      'Keep recording': (row) => this.doing(server.keepRecording(row.name), `the last hour of ${row.name} is kept`),
+      'Keep recording': (row) => this.doing(server.keepRecording(row.name), tr`the last hour of ${row.name} is kept`),
       Log: (row) => this.showLog(row),
-      Start: (row) => this.doing(server.start(row.name), `${row.name} starts`),
+      Start: (row) => this.doing(server.start(row.name), tr`${row.name} starts`),
       Restart: (row) => this.restart(row),
       Stop: (row) => this.stop(row),
       Delete: (row) => this.forget(row),
@@ -90,27 +91,27 @@ class Page {
 
   create(wish) {
     const name = this.freeName(wish.size);
-    return this.doing(server.create({ name, ...wish }), `${name} starts`);
+    return this.doing(server.create({ name, ...wish }), tr`${name} starts`);
   }
 
   async stop(row) {
-    const text = 'Its log, its recordings and its shift stay; it can be started again.';
-    if (await confirmed(`Stop ${row.name}?`, text, 'Stop')) await this.doing(server.stop(row.name), `${row.name} has ended`);
+    const text = tr`Its log, its recordings and its shift stay; it can be started again.`;
+    if (await confirmed(tr`Stop ${row.name}?`, text, tr`Stop`)) await this.doing(server.stop(row.name), tr`${row.name} has ended`);
   }
 
   async restart(row) {
-    const text = 'It ends and begins again with the same arguments; a shift goes on where its database has it.';
-    if (await confirmed(`Restart ${row.name}?`, text, 'Restart')) await this.doing(server.restart(row.name), `${row.name} starts again`);
+    const text = tr`It ends and begins again with the same arguments; a shift goes on where its database has it.`;
+    if (await confirmed(tr`Restart ${row.name}?`, text, tr`Restart`)) await this.doing(server.restart(row.name), tr`${row.name} starts again`);
   }
 
   async forget(row) {
-    const text = 'Its log, its recordings and the database of its shift are deleted.';
-    if (await confirmed(`Delete ${row.name}?`, text, 'Delete')) await this.doing(server.stop(row.name, true), `${row.name} is deleted`);
+    const text = tr`Its log, its recordings and the database of its shift are deleted.`;
+    if (await confirmed(tr`Delete ${row.name}?`, text, tr`Delete`)) await this.doing(server.stop(row.name, true), tr`${row.name} is deleted`);
   }
 
   openInsert(row) {
     this.target = row.name;
-    setText($('insert-title'), `Insert a world into ${row.name}`);
+    setText($('insert-title'), tr`Insert a world into ${row.name}`);
     $('insert-answer').hidden = true;
     server.argumentsOf().then(({ worlds }) => $('worlds').replaceChildren(...worlds.map((value) => make('option', { value }))));
     $('insert').showModal();
@@ -121,7 +122,7 @@ class Page {
     const content = file.files[0] ? await file.files[0].text() : world.value.trim();
     const place = { x: Number(x.value), y: Number(y.value), yaw: Number(yaw.value) };
     try {
-      if (keep.value.trim() && !file.files[0]) throw new Error('keep the file as: choose a file first; a named world is kept already');
+      if (keep.value.trim() && !file.files[0]) throw new Error(tr`keep the file as: choose a file first; a named world is kept already`);
       const { message } = await server.insert(this.target, { world: content, ...place });
       if (keep.value.trim()) await server.keepWorld(keep.value.trim(), content);
       $('insert').close();
@@ -134,7 +135,7 @@ class Page {
 
   showLog(row) {
     this.following = new AbortController();
-    setText($('log-title'), `Log of ${row.name}`);
+    setText($('log-title'), tr`Log of ${row.name}`);
     setText($('log-text'), '');
     $('log').showModal();
     server.follow(row.name, showLog, this.following.signal).catch((error) => {

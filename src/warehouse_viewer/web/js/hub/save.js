@@ -2,6 +2,7 @@
 // The form that saves a world under a name.
 
 import { $, on, setText } from '../base/dom.js';
+import { tr } from '../language/texts.js';
 import * as server from './server.js';
 
 export class SaveForm {
@@ -15,7 +16,7 @@ export class SaveForm {
   open(name) {
     this.target = name;
     const { world, replace } = $('save-form').elements;
-    setText($('save-title'), `Save the world of ${name}`);
+    setText($('save-title'), tr`Save the world of ${name}`);
     world.value = name;
     replace.checked = false;
     $('save-answer').hidden = true;

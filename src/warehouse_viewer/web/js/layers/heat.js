@@ -2,6 +2,7 @@
 // Where on the floor robots drive and where they wait, as colours.
 
 import * as THREE from '/three/build/three.module.js';
+import { tr } from '../language/texts.js';
 import { STILL } from '../scene/backdrop.js';
 import { Changes } from '../base/changes.js';
 import { $, on, press } from '../base/dom.js';
@@ -9,7 +10,7 @@ import { STOPS, swatches, topOf } from '../base/heat_scale.js';
 import { behind } from '../scene/paint.js';
 
 const HEIGHT = 0.004; // over the floor, beneath robots [m]
-const LEGEND = { traffic: 'robots through a cell', waiting: 'seconds that robots waited in a cell' };
+const LEGEND = { traffic: tr`robots through a cell`, waiting: tr`seconds that robots waited in a cell` };
 /** RGBA bytes of each value; nothing at all is transparent. */
 export function coloursOf(values, top) {
   const out = new Uint8Array(4 * values.length);
@@ -40,7 +41,7 @@ export class HeatMap {
     $('heat-panel').hidden = !isOn;
     this.changes?.close();
     this.changes = isOn ? new Changes(['heat'], {
-      shift: ({ runs }) => this.take(runs ? this.heat : null, runs ? '' : 'no shift is running'),
+      shift: ({ runs }) => this.take(runs ? this.heat : null, runs ? '' : tr`no shift is running`),
       heat: ({ heat }) => this.take(heat),
     }) : null;
     if (!isOn) this.take(null);
@@ -72,6 +73,6 @@ export class HeatMap {
     this.object.position.set(x + (width - 1) * spacing / 2, y + (rows - 1) * spacing / 2, HEIGHT);
     this.object.layers.set(STILL);
     this.stage.scene.add(this.object);
-    $('heat-text').textContent = `${LEGEND[this.kind]}, last ${Math.max(1, Math.round(seconds / 60))} min: 0 to ${Math.round(top)}`;
+    $('heat-text').textContent = tr`${LEGEND[this.kind]}, last ${Math.max(1, Math.round(seconds / 60))} min: 0 to ${Math.round(top)}`;
   }
 }

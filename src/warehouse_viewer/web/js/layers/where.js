@@ -4,6 +4,7 @@
 import * as THREE from '/three/build/three.module.js';
 import { get } from '../base/api.js';
 import { Changes } from '../base/changes.js';
+import { tr } from '../language/texts.js';
 
 const MOST = 1000; // bins
 const SIZE = [0.9, 0.9, 1.95]; // of the light around a unit [m]
@@ -47,7 +48,7 @@ export class Where {
       if (sku !== this.sku) return; // another one was requested since
       if (answer instanceof Error) {
         this.sku = '';
-        this.fail(`where is ${sku}? ${answer.message}`);
+        this.fail(tr`where is ${sku}? ${answer.message}`);
         return;
       }
       this.take(answer.places);

@@ -3,6 +3,7 @@
 // drawn.
 
 import * as THREE from '/three/build/three.module.js';
+import { tr } from '../language/texts.js';
 import { Ribbons } from '../scene/ribbons.js';
 import { lasting } from '../base/time.js';
 
@@ -12,8 +13,8 @@ const INK = [213, 94, 0];
 
 /** What a label says beside the reason: the time that is left, and how many robots are inside. */
 export function noteOf({ until, inside }, now) {
-  const left = until === null ? 'until opened' : `${lasting(until - now)} left`;
-  return inside.length ? `${left} · ${inside.length} inside` : left;
+  const left = until === null ? tr`until opened` : tr`${lasting(until - now)} left`;
+  return inside.length ? tr`${left} · ${inside.length} inside` : left;
 }
 
 /** The four edges of a rectangle {x_min, …} as x y z of both ends of each, in a row. */

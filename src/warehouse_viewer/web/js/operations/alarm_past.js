@@ -3,7 +3,8 @@
 
 import { get } from '../base/api.js';
 import { $, make } from '../base/dom.js';
-import { number } from '../base/numbers.js';
+import { number } from '../language/numbers.js';
+import { tr } from '../language/texts.js';
 import { clock, lasting } from '../base/time.js';
 
 const SHOWN = 100;
@@ -16,12 +17,12 @@ export async function showPast() {
     make('span', { textContent: text }),
     make('span', { className: 'dim', textContent: didOf(by, actions) })));
   $('alarm-past-list').replaceChildren(...rows);
-  const ended = total ? `${number(total)} ended` : 'None has ended yet';
-  $('alarm-past-sum').textContent = repairs ? `${ended}; mean time to repair ${lasting(mean)} (${number(repairs)} repaired)` : ended;
+  const ended = total ? tr`${number(total)} ended` : tr`None has ended yet`;
+  $('alarm-past-sum').textContent = repairs ? tr`${ended}; mean time to repair ${lasting(mean)} (${number(repairs)} repaired)` : ended;
 }
 
 /** Who saw an alarm, and who did what about it. */
 export function didOf(by, actions) {
-  const done = actions.map(({ what, by: who, time }) => `${who || 'no name'}: ${what} (${clock(time)})`);
-  return [by && `seen by ${by}`, ...done].filter(Boolean).join('; ') || 'ended by itself';
+  const done = actions.map(({ what, by: who, time }) => `${who || tr`no name`}: ${what} (${clock(time)})`);
+  return [by && tr`seen by ${by}`, ...done].filter(Boolean).join('; ') || tr`ended by itself`;
 }

@@ -5,11 +5,12 @@ import { AlarmRow } from '../base/alarm_row.js';
 import { post } from '../base/api.js';
 import { $, on } from '../base/dom.js';
 import { knownPerson, personOf } from '../base/person.js';
+import { tr } from '../language/texts.js';
 
 const TITLE = document.title;
 /** The alarm that only the page itself can raise. */
-const AWAY = { id: 0, kind: 'CONNECTION', severity: 'critical', title: 'No connection', subject: 'server', text: '',
-  to_do: 'What is shown is old. The page comes back by itself; if not, look whether the node `viewer` runs.', since: 0, seen_by: '', seen_at: 0 };
+const AWAY = { id: 0, kind: 'CONNECTION', severity: 'critical', title: tr`No connection`, subject: 'server', text: '',
+  to_do: tr`What is shown is old. The page comes back by itself; if not, look whether the node \`viewer\` runs.`, since: 0, seen_by: '', seen_at: 0 };
 
 export class Alarms {
   /** `fail(error)` where the server refuses. */
@@ -25,7 +26,7 @@ export class Alarms {
     const known = new Set(this.alarms.map(({ id }) => id));
     const [fresh] = alarms.filter(({ id }) => !known.has(id));
     this.alarms = alarms;
-    if (fresh) $('alarm-told').textContent = `Alarm: ${fresh.title}. ${fresh.text}. ${fresh.to_do}`;
+    if (fresh) $('alarm-told').textContent = tr`Alarm: ${fresh.title}. ${fresh.text}. ${fresh.to_do}`;
     this.draw();
   }
 
@@ -54,7 +55,7 @@ export class Alarms {
     if ($('alarm-past').open && all.length !== this.count) this.showPast();
     this.count = all.length;
     $('no-alarms').hidden = all.length > 0;
-    $('alarm-count').textContent = all.length ? `${all.length}, ${unseen} not seen` : '';
+    $('alarm-count').textContent = all.length ? tr`${all.length}, ${unseen} not seen` : '';
     dispatchEvent(new CustomEvent('count', { detail: all.length })); // for the page's link
     document.title = all.length ? `(${all.length}) ${TITLE}` : TITLE;
   }
@@ -76,7 +77,7 @@ export class Alarms {
   async apply(alarm, { action, label, target }) {
     try {
       await post(`/alarms/${alarm.id}/remedies/${action}`, { by: knownPerson() });
-      $('alarm-told').textContent = `${label}: ${target}, done.`;
+      $('alarm-told').textContent = tr`${label}: ${target}, done.`;
     } catch (error) {
       this.fail(new Error(`${label}, ${target}: ${error.message}`));
     }
@@ -96,6 +97,6 @@ export class Alarms {
 
   showPerson() {
     const name = knownPerson();
-    $('person').textContent = name ? `You are ${name}` : 'Who are you?';
+    $('person').textContent = name ? tr`You are ${name}` : tr`Who are you?`;
   }
 }

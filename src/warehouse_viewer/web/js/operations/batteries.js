@@ -3,8 +3,9 @@
 
 import { get } from '../base/api.js';
 import { $, make, on } from '../base/dom.js';
-import { number, percent } from '../base/numbers.js';
+import { number, percent } from '../language/numbers.js';
 import { ROOT } from '../base/root.js';
+import { tr } from '../language/texts.js';
 import { ACTIVITY, ACTIVITY_NAMES } from '../base/words.js';
 
 const EVERY = 5000; // [ms]
@@ -44,11 +45,11 @@ function draw(robots) {
 
 /** What the charges 0 … 1, the least first, come to. */
 export function summary(charges) {
-  if (!charges.length) return 'There is no robot.';
-  if (charges[0] >= FULL) return 'All are full. Without realism:=typical, or another with energy, none is ever used.';
+  if (!charges.length) return tr`There is no robot.`;
+  if (charges[0] >= FULL) return tr`All are full. Without realism:=typical, or another with energy, none is ever used.`;
   const mean = charges.reduce((sum, charge) => sum + charge, 0) / charges.length;
   const low = charges.filter((charge) => charge < LOW).length, rest = charges.length - SHOWN;
-  return [`mean ${percent(mean)}`, `least ${percent(charges[0])}`, `${number(low)} below ${percent(LOW)}`, rest > 0 && `the emptiest ${SHOWN} of ${number(charges.length)}`].filter(Boolean).join(', ');
+  return [tr`mean ${percent(mean)}`, tr`least ${percent(charges[0])}`, tr`${number(low)} below ${percent(LOW)}`, rest > 0 && tr`the emptiest ${SHOWN} of ${number(charges.length)}`].filter(Boolean).join(', ');
 }
 
 function rowOf({ name, charge, activity, failures }) {

@@ -3,7 +3,8 @@
 
 import { sparkline } from '../base/charts.js';
 import { $, make } from '../base/dom.js';
-import { number, percent as share } from '../base/numbers.js';
+import { number, percent as share } from '../language/numbers.js';
+import { tr } from '../language/texts.js';
 
 export const count = (value) => number(value);
 const percent = (value) => share(value);
@@ -11,21 +12,21 @@ const exact = (value) => share(value, value < 0.1 ? 1 : 0);
 
 /** What the server calls each; `most`: less is better. */
 const LEADING = [
-  { name: 'pieces', title: 'Pieces per hour', format: count, aim: ({ target, of }) => `target ${count(target)}: 90 % of what stations can, ${count(of)}` },
-  { name: 'orders', title: 'Orders done per hour', format: count, aim: ({ target }) => (target ? `target ${count(target)}: as many arrive` : 'target: as many as come in') },
-  { name: 'late', title: 'Late orders', format: exact, most: true, aim: ({ target }) => `target ${percent(target)} at most` },
-  { name: 'available', title: 'Robots available', format: percent, aim: ({ target, of, value }) => `${count(of * value)} of ${count(of)}; target ${percent(target)} at least` },
+  { name: 'pieces', title: tr`Pieces per hour`, format: count, aim: ({ target, of }) => tr`target ${count(target)}: 90 % of what stations can, ${count(of)}` },
+  { name: 'orders', title: tr`Orders done per hour`, format: count, aim: ({ target }) => (target ? tr`target ${count(target)}: as many arrive` : tr`target: as many as come in`) },
+  { name: 'late', title: tr`Late orders`, format: exact, most: true, aim: ({ target }) => tr`target ${percent(target)} at most` },
+  { name: 'available', title: tr`Robots available`, format: percent, aim: ({ target, of, value }) => tr`${count(of * value)} of ${count(of)}; target ${percent(target)} at least` },
 ];
 const SMALL = [
-  ['orders_completed', 'orders completed', count],
-  ['orders_waiting', 'orders waiting', count],
-  ['orders_at_stations', 'orders at stations', count],
-  ['orders_late', 'orders late now', count],
-  ['pile_on', 'pieces per unit visit', (v) => number(v, 1)],
-  ['station_idle_fraction', 'picking stations idle', percent],
-  ['stock_level', 'stock', percent],
-  ['real_time_factor', 'real-time factor', (v) => number(v, 2)],
-  ['collisions', 'collisions', count],
+  ['orders_completed', tr`orders completed`, count],
+  ['orders_waiting', tr`orders waiting`, count],
+  ['orders_at_stations', tr`orders at stations`, count],
+  ['orders_late', tr`orders late now`, count],
+  ['pile_on', tr`pieces per unit visit`, (v) => number(v, 1)],
+  ['station_idle_fraction', tr`picking stations idle`, percent],
+  ['stock_level', tr`stock`, percent],
+  ['real_time_factor', tr`real-time factor`, (v) => number(v, 2)],
+  ['collisions', tr`collisions`, count],
 ];
 const EXACT = 0.02; // of the target: as good as met
 const NEAR = 0.1; // the same: missed by little
@@ -34,9 +35,9 @@ const NEAR = 0.1; // the same: missed by little
 export function verdict({ value, target, early = false }, most = false) {
   if (!target) return ['', ''];
   const miss = most ? value - target : (target - value) / target;
-  if (miss <= (most ? 0 : EXACT)) return ['good', 'on target'];
-  if (early) return ['', 'the shift begins'];
-  return miss <= (most ? target : NEAR) ? ['near', most ? 'just above target' : 'just below target'] : ['missed', most ? 'above target' : 'below target'];
+  if (miss <= (most ? 0 : EXACT)) return ['good', tr`on target`];
+  if (early) return ['', tr`the shift begins`];
+  return miss <= (most ? target : NEAR) ? ['near', most ? tr`just above target` : tr`just below target`] : ['missed', most ? tr`above target` : tr`below target`];
 }
 
 const COLOURS = { good: 'working', near: 'waiting', missed: 'needs-help', '': 'moving' };
@@ -49,7 +50,7 @@ class Card {
     this.aim = make('p', { className: 'aim dim' });
     const canvas = make('canvas');
     canvas.setAttribute('role', 'img');
-    canvas.ariaLabel = `${about.title}, over the last hour`;
+    canvas.ariaLabel = tr`${about.title}, over the last hour`;
     this.canvas = canvas;
     this.line = sparkline(canvas, () => COLOURS[this.state ?? '']);
     this.element = make('article', { className: 'card figure' }, make('header', {}, make('h2', { textContent: about.title }), this.badge),
@@ -66,7 +67,7 @@ class Card {
     this.aim.textContent = about.aim(figure);
     const points = times.map((x, i) => ({ x, y: values[i] }));
     const ends = times.length > 1 && target ? [{ x: times[0], y: target }, { x: times.at(-1), y: target }] : [];
-    if (values.length) this.canvas.ariaLabel = `${about.title}, over the last hour: from ${about.format(Math.min(...values))} to ${about.format(Math.max(...values))}`;
+    if (values.length) this.canvas.ariaLabel = tr`${about.title}, over the last hour: from ${about.format(Math.min(...values))} to ${about.format(Math.max(...values))}`;
     this.line.show(points, ends);
     if (state !== this.state) {
       this.state = state;

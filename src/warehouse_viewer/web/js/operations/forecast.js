@@ -5,8 +5,9 @@
 import { get, post } from '../base/api.js';
 import { axis, faint, font, Plot } from '../base/charts.js';
 import { $, make, on, token } from '../base/dom.js';
-import { number } from '../base/numbers.js';
+import { number } from '../language/numbers.js';
 import { ask } from '../base/request.js';
+import { plural, tr } from '../language/texts.js';
 import { clock } from '../base/time.js';
 
 const ROBOTS = [2, 1, -1, -2];
@@ -36,11 +37,11 @@ export function aheadOf({ made_at: begin, time, done }, quantile) {
 export function changesOf(stations) {
   const shut = stations.map(({ name, open }) => {
     const what = open ? 'close' : 'open';
-    return { text: `+0 ${what} ${name}`, label: `${what} ${name}` };
+    return { text: `+0 ${what} ${name}`, label: open ? tr`close ${name}` : tr`open ${name}` };
   });
   const robots = ROBOTS.map((n) => ({
     text: `+0 robots ${n > 0 ? '+' : ''}${n}`,
-    label: `${Math.abs(n)} robot${Math.abs(n) > 1 ? 's' : ''} ${n > 0 ? 'more' : 'fewer'}`,
+    label: n > 0 ? plural(n, '{n} robot more', '{n} robots more') : plural(-n, '{n} robot fewer', '{n} robots fewer'),
   }));
   return [...robots, ...shut];
 }
@@ -85,15 +86,15 @@ export class ForecastCard {
   /** Offers what can be changed. */
   takeStations(stations) {
     this.stations = stations;
-    const changes = [...changesOf(stations), { text: FIRST, label: 'an order first …' }];
+    const changes = [...changesOf(stations), { text: FIRST, label: tr`an order first …` }];
     const known = JSON.stringify(changes);
     if (known === this.known) return;
     this.known = known;
     const chosen = $('forecast-change').value;
     $('forecast-change').replaceChildren(
-      make('option', { value: '', textContent: 'nothing' }),
+      make('option', { value: '', textContent: tr`nothing` }),
       ...options(changes),
-      ...this.policies.length ? [make('optgroup', { label: 'another policy' }, ...options(this.policies))] : []);
+      ...this.policies.length ? [make('optgroup', { label: tr`another policy` }, ...options(this.policies))] : []);
     const all = [...changes, ...this.policies];
     $('forecast-change').value = all.some(({ text }) => text === chosen) ? chosen : '';
   }
@@ -106,7 +107,7 @@ export class ForecastCard {
 
   async ask() {
     const change = this.change();
-    this.say('', 'looks ahead for about 20 s …');
+    this.say('', tr`looks ahead for about 20 s …`);
     try {
       const asked = { minutes: Number($('forecast-minutes').value), changes: change ? [change] : [] };
       ({ forecast_id: this.id } = await post('/forecasts', asked));
@@ -122,8 +123,8 @@ export class ForecastCard {
     if (forecast.state !== 'DONE' || this.keepsOwn(forecast)) return;
     const { forecast_id: id, made_at: begin, runs, changes, text } = forecast;
     this.id = Math.max(this.id, id);
-    const changed = changes.length ? `, with ${changes.map((line) => line.replace(/^\+0\S* /, '')).join(', ')}` : '';
-    this.say(sentenceOf(text), runs ? `made at ${clock(begin)} from ${number(runs)} runs${changed}` : '');
+    const changed = changes.length ? tr`, with ${changes.map((line) => line.replace(/^\+0\S* /, '')).join(', ')}` : '';
+    this.say(sentenceOf(text), runs ? tr`made at ${clock(begin)} from ${number(runs)} runs${changed}` : '');
     if (!runs) return;
     if (!changes.length) this.plain = forecast;
     this.shown = forecast;
@@ -159,23 +160,23 @@ function look() {
   return {
     type: 'line',
     datasets: [
-      { ...line, label: 'done', borderColor: token('text') },
-      { ...line, label: 'nine of ten runs have at most', borderWidth: 0, backgroundColor: faint('moving', 0.25), fill: '+1' },
-      { ...line, label: 'nine of ten runs have at least', borderWidth: 0 },
-      { ...line, label: 'half of the runs have', borderColor: token('moving') },
-      { ...line, label: 'without the change', borderColor: token('dim'), borderDash: [4, 4], borderWidth: 1.25 },
+      { ...line, label: tr`done`, borderColor: token('text') },
+      { ...line, label: tr`nine of ten runs have at most`, borderWidth: 0, backgroundColor: faint('moving', 0.25), fill: '+1' },
+      { ...line, label: tr`nine of ten runs have at least`, borderWidth: 0 },
+      { ...line, label: tr`half of the runs have`, borderColor: token('moving') },
+      { ...line, label: tr`without the change`, borderColor: token('dim'), borderDash: [4, 4], borderWidth: 1.25 },
     ],
     options: {
       parsing: false,
       interaction: { mode: 'nearest', axis: 'x', intersect: false },
       scales: {
-        x: axis('minutes from now', { ticks: { callback: (minutes) => Math.round(minutes) }, grid: { display: false }, scale: { bounds: 'ticks' } }),
-        y: axis('orders done', { ticks: { callback: (count) => number(count) }, scale: { grace: '5%' } }),
+        x: axis(tr`minutes from now`, { ticks: { callback: (minutes) => Math.round(minutes) }, grid: { display: false }, scale: { bounds: 'ticks' } }),
+        y: axis(tr`orders done`, { ticks: { callback: (count) => number(count) }, scale: { grace: '5%' } }),
       },
       plugins: {
         legend: { display: false },
         tooltip: { backgroundColor: token('raised'), titleColor: token('text'), bodyColor: token('text'), borderColor: token('line'), borderWidth: 1, titleFont: font(), bodyFont: font(),
-          callbacks: { title: ([{ parsed }]) => `${Math.abs(Math.round(parsed.x))} min ${parsed.x < 0 ? 'ago' : 'from now'}`, label: ({ dataset, parsed }) => ` ${dataset.label}: ${number(Math.round(parsed.y))}` } },
+          callbacks: { title: ([{ parsed }]) => tr`${Math.abs(Math.round(parsed.x))} min ${parsed.x < 0 ? tr`ago` : tr`from now`}`, label: ({ dataset, parsed }) => ` ${dataset.label}: ${number(Math.round(parsed.y))}` } },
       },
     },
   };

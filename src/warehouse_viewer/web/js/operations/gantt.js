@@ -4,6 +4,7 @@
 
 import { $, make, on, onTheme, setText } from '../base/dom.js';
 import { ROOT } from '../base/root.js';
+import { tr } from '../language/texts.js';
 import { AXIS, outline, paint, palette } from './gantt_paint.js';
 import { GanttPointer } from './gantt_pointer.js';
 import { GanttView, sorted, SORTS } from './gantt_view.js';
@@ -20,7 +21,7 @@ const NAMES = [120, 84]; // the width of names on a wide and on a narrow page [p
 /** What of the hour is known, where it is not all of it. */
 export function knownOf({ begin, now }) {
   if (begin < 1 || now - begin > HOUR) return '';
-  return `its last ${lasting(now - begin)}: watched since ${clock(begin)}`;
+  return tr`its last ${lasting(now - begin)}: watched since ${clock(begin)}`;
 }
 
 export class Gantt {
@@ -153,7 +154,7 @@ export class Gantt {
   describe(row, span) {
     if (!span) return row.name;
     const word = row.kind === 'station' ? STATION_STATES[ACTIVITY_NAMES[span.state]] : ACTIVITY[span.state];
-    return `${row.name}: ${word}, ${lasting(span.to - span.from)}, ${clock(span.from)} to ${clock(span.to)}`;
+    return tr`${row.name}: ${word}, ${lasting(span.to - span.from)}, ${clock(span.from)} to ${clock(span.to)}`;
   }
 
   /** Says in an element what a row did in a span, and why once that is known. */

@@ -3,6 +3,7 @@
 
 import { font } from '../base/charts.js';
 import { token } from '../base/dom.js';
+import { tr } from '../language/texts.js';
 import { before } from '../base/time.js';
 import { ACTIVITY_CLASS } from '../base/words.js';
 
@@ -86,7 +87,7 @@ function axis(context, view, colours, width) {
   for (const { time, ago } of view.ticks(view.width / 90)) {
     const x = view.x(time);
     context.textAlign = x > width - 30 ? 'right' : x < view.left + 24 ? 'left' : 'center';
-    context.fillText(ago ? `${before(ago)} ago` : 'now', x, AXIS / 2);
+    context.fillText(ago ? tr`${before(ago)} ago` : tr`now`, x, AXIS / 2);
   }
   context.fillStyle = colours.line;
   context.fillRect(0, AXIS - 1, width, 1);

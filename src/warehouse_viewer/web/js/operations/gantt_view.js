@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What part of the hour and of the rows a Gantt shows, and what lies where in it.
 
+import { tr } from '../language/texts.js';
+
 const SHORTEST = 20; // a window [s]
 const STEP = 1.25; // of a zoom
 
@@ -81,8 +83,8 @@ export class GanttView {
 
 /** The names of the ways to sort, and what each sorts by: a state's share, the most first. */
 export const SORTS = [
-  ['name', 'name', -1], ['waiting', 'share waiting', 3], ['help', 'share needing help', 4], ['working', 'share working', 2],
-  ['moving', 'share moving', 1], ['resting', 'share resting', 0],
+  ['name', tr`name`, -1], ['waiting', tr`share waiting`, 3], ['help', tr`share needing help`, 4], ['working', tr`share working`, 2],
+  ['moving', tr`share moving`, 1], ['resting', tr`share resting`, 0],
 ];
 
 const collator = new Intl.Collator('en', { numeric: true });

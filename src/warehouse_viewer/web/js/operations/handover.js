@@ -3,6 +3,7 @@
 
 import { $, on } from '../base/dom.js';
 import { send } from '../base/request.js';
+import { tr } from '../language/texts.js';
 
 let isReady = false;
 
@@ -23,7 +24,7 @@ function addButtons() {
   on($('handover-hours'), 'change', () => read().catch((error) => say(error.message)));
   on($('handover-close'), 'click', () => $('handover').close());
   on($('handover-copy'), 'click', async () => {
-    await navigator.clipboard.writeText($('handover-text').value).then(() => say('copied'), () => say('the browser does not let the page copy'));
+    await navigator.clipboard.writeText($('handover-text').value).then(() => say(tr`copied`), () => say(tr`the browser does not let the page copy`));
   });
   on($('handover-save'), 'click', () => {
     const link = document.createElement('a');

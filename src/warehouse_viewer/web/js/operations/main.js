@@ -3,6 +3,7 @@
 // changes comes by itself.
 
 import { ROOT } from '../base/root.js';
+import { tr } from '../language/texts.js';
 import { Alarms } from './alarms.js';
 import { get, remove } from '../base/api.js';
 import { Changes } from '../base/changes.js';
@@ -86,7 +87,7 @@ class Page {
 
   showLink(state) {
     $('link').dataset.state = state;
-    const text = { live: 'live', away: 'the server does not answer', idle: 'no shift is running (operations.launch)' }[state];
+    const text = { live: tr`live`, away: tr`the server does not answer`, idle: tr`no shift is running (operations.launch)` }[state];
     $('link').textContent = text;
     this.alarms.setAway(state === 'away' ? text : '');
   }
@@ -105,10 +106,10 @@ class Page {
   /** Asks first: an order that is cancelled does not come back. */
   async cancel(order) {
     const { order_id: id, reference, station } = order;
-    const at = station ? ` It is at ${station}.` : '';
-    const title = `Cancel ${reference}?`;
-    if (!await confirmed(title, `Order ${id}, picked so far: ${piecesOf(order)}.${at}`, `Cancel ${reference}`, 'Keep it')) return;
-    await this.act(remove(`/orders/${id}`), (message) => [`${reference} is cancelled`, message].filter(Boolean).join('; '));
+    const at = station ? tr` It is at ${station}.` : '';
+    const title = tr`Cancel ${reference}?`;
+    if (!await confirmed(title, tr`Order ${id}, picked so far: ${piecesOf(order)}.${at}`, tr`Cancel ${reference}`, tr`Keep it`)) return;
+    await this.act(remove(`/orders/${id}`), (message) => [tr`${reference} is cancelled`, message].filter(Boolean).join('; '));
   }
 
   /** What has become of an order, and how urgent it is. */
@@ -147,10 +148,10 @@ class Page {
     const sku = $('sku').value.trim();
     try {
       const { total, pieces, places } = await get(`/stock?limit=${PLACES}&sku=${encodeURIComponent(sku)}`);
-      $('found').textContent = `${count(pieces)} pieces in ${count(total)} bins`;
+      $('found').textContent = tr`${count(pieces)} pieces in ${count(total)} bins`;
       Object.assign($('on-floor'), { hidden: !sku || !total, href: `${ROOT}/#${encodeURIComponent(sku)}` });
       $('places').replaceChildren(...places.map(({ item, shelf_id: unit, sku: held, quantity, reserved }) => (
-        make('li', { textContent: `unit ${unit}: ${count(quantity)}${sku ? '' : ` ${held}`} in ${item.replace('item', 'bin ')}${reserved ? `, ${reserved} reserved` : ''}` }))));
+        make('li', { textContent: tr`unit ${unit}: ${count(quantity)}${sku ? '' : ` ${held}`} in ${item.replace('item', 'bin ')}${reserved ? tr`, ${reserved} reserved` : ''}` }))));
     } catch (error) {
       $('found').textContent = error.message;
     }

@@ -4,14 +4,15 @@
 import { get, patch } from '../base/api.js';
 import { $, make, on, press, setText } from '../base/dom.js';
 import { ROOT } from '../base/root.js';
+import { tr } from '../language/texts.js';
 import { clock, lasting } from '../base/time.js';
 import { ORDER_STATES } from '../base/words.js';
 import { mark, whole } from './order_entry.js';
 import { isOver, lateness, piecesOf } from './order_row.js';
 
 const URGENT = 255, MOST_MINUTES = 1e6;
-const KINDS = { RECEIVED: 'received', ASSIGNED: 'given to', PICKED: 'picked', COMPLETED: 'complete', CANCELLED: 'cancelled', SHORT: 'short of',
-  UNPICKED: 'put back', REOPENED: 'open again', CHANGED: 'changed to' };
+const KINDS = { RECEIVED: tr`received`, ASSIGNED: tr`given to`, PICKED: tr`picked`, COMPLETED: tr`complete`, CANCELLED: tr`cancelled`, SHORT: tr`short of`,
+  UNPICKED: tr`put back`, REOPENED: tr`open again`, CHANGED: tr`changed to` };
 
 export class OrderDetails {
   /** `now()`: the simulated time [s]; `done(text)` is called after a change. */
@@ -44,7 +45,7 @@ export class OrderDetails {
   show(order, isNew = false) {
     this.order = order;
     const { order_id: id, reference, priority, due, state } = order, over = isOver(order);
-    setText($('order-title'), reference ? `${reference}, order ${id}` : `Order ${id}`);
+    setText($('order-title'), reference ? tr`${reference}, order ${id}` : tr`Order ${id}`);
     $('order-form').hidden = over;
     press($('order-urgent'), priority === URGENT);
     if (isNew) {
@@ -53,9 +54,9 @@ export class OrderDetails {
       this.due = $('order-due').value;
       for (const name of ['order-priority', 'order-due']) mark($(name), '');
     }
-    this.facts = [['state', [ORDER_STATES[state], order.station].filter(Boolean).join(' ')],
-      ['pieces', piecesOf(order)], ['priority', priority === URGENT ? `${priority}, urgent` : String(priority)],
-      ['due', due ? `${clock(due)}, ${lateness(order, this.now()).text}` : 'at any time']];
+    this.facts = [[tr`state`, [ORDER_STATES[state], order.station].filter(Boolean).join(' ')],
+      [tr`pieces`, piecesOf(order)], [tr`priority`, priority === URGENT ? tr`${priority}, urgent` : String(priority)],
+      [tr`due`, due ? `${clock(due)}, ${lateness(order, this.now()).text}` : tr`at any time`]];
     this.showFacts();
   }
 
@@ -70,8 +71,8 @@ export class OrderDetails {
       const { events, storage_units: units, estimated } = await get(`/orders/${id}/history`);
       if (id !== this.order.order_id) return;
       const links = units.flatMap((name) => [make('a', { href: `${ROOT}/#${name}`, textContent: name.replace('storage_', '').replace(/(\d)/, ' $1') }), ' ']);
-      this.showFacts([['units', ...links.length ? links : ['none on its way']],
-        ...estimated ? [['likely complete', `${clock(estimated)}, in ${lasting(estimated - this.now())}`]] : []]);
+      this.showFacts([[tr`units`, ...links.length ? links : [tr`none on its way`]],
+        ...estimated ? [[tr`likely complete`, tr`${clock(estimated)}, in ${lasting(estimated - this.now())}`]] : []]);
       $('order-events').replaceChildren(...events.reverse().map((event) => make('li', {},
         make('span', { className: 'dim', textContent: clock(event.time) }), ` ${said(event)}`)));
     } catch (error) {
@@ -106,7 +107,7 @@ export class OrderDetails {
       this.say(message, 'done');
       this.show(await get(`/orders/${id}`), true);
       await this.readHistory();
-      this.done(`${reference || `order ${id}`}: ${message}`);
+      this.done(`${reference || tr`order ${id}`}: ${message}`);
     } catch (error) {
       this.say(error.message);
     }
@@ -121,7 +122,7 @@ export class OrderDetails {
 /** An event of an order as a sentence. */
 function said({ kind, sku, quantity, station, storage_unit: unit, text }) {
   const pieces = sku && `${quantity ? `${quantity} × ` : ''}${sku}`;
-  const from = unit && `from ${unit.replace('storage_unit', 'unit ')}`;
-  const at = station && (kind === 'ASSIGNED' ? station : `at ${station}`);
+  const from = unit && tr`from ${unit.replace('storage_unit', 'unit ')}`;
+  const at = station && (kind === 'ASSIGNED' ? station : tr`at ${station}`);
   return [KINDS[kind] ?? kind, pieces, from, at, text].filter(Boolean).join(' ');
 }

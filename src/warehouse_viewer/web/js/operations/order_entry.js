@@ -3,7 +3,8 @@
 
 import { get, post } from '../base/api.js';
 import { $, make, on } from '../base/dom.js';
-import { number } from '../base/numbers.js';
+import { number } from '../language/numbers.js';
+import { tr } from '../language/texts.js';
 
 const TYPING = 150; // after a key [ms]
 const SHOWN = 20; // SKUs that a list offers
@@ -13,7 +14,7 @@ const LARGE = 1e6; // limits from here on say nothing to a person who has mistyp
 /** A whole number in a text, from least to most; an Error that says what was expected. */
 export function whole(text, least, most) {
   const value = /^\s*\d+\s*$/.test(text) ? Number(text) : NaN;
-  if (!(value >= least && value <= most)) throw new Error(`a whole number from ${least} ${most < LARGE || value > most ? `to ${number(most)}` : 'on'} was expected`);
+  if (!(value >= least && value <= most)) throw new Error(tr`a whole number from ${least} ${most < LARGE || value > most ? tr`to ${number(most)}` : tr`on`} was expected`);
   return value;
 }
 
@@ -29,7 +30,7 @@ export function completeSkus(input) {
 
 async function offer(text) {
   const { skus } = await find(text).catch(() => ({ skus: [] }));
-  $('skus').replaceChildren(...skus.map(({ sku, available }) => make('option', { value: sku, label: `${available} in stock` })));
+  $('skus').replaceChildren(...skus.map(({ sku, available }) => make('option', { value: sku, label: tr`${available} in stock` })));
 }
 
 function find(text) {
@@ -83,7 +84,7 @@ export class OrderEntry {
     const due = field('entry-due', (text) => (text.trim() ? this.now() + 60 * whole(text, 1, 100000) : 0));
     const priority = field('entry-priority', (text) => whole(text, 0, 255));
     const reference = field('entry-reference', (text) => {
-      if (!/^[ -~]*$/.test(text)) throw new Error('letters without accents, digits and signs were expected');
+      if (!/^[ -~]*$/.test(text)) throw new Error(tr`letters without accents, digits and signs were expected`);
       return text.trim();
     });
     const isWrong = [...entered, due, priority, reference].includes(null);
@@ -99,7 +100,7 @@ export class OrderEntry {
     try {
       const { order_id: id, message } = await post('/orders', order);
       $('entry').close();
-      this.done([`order ${id}${order.reference ? `, ${order.reference},` : ''} is accepted`, message].filter(Boolean).join('; '));
+      this.done([tr`order ${id}${order.reference ? `, ${order.reference},` : ''} is accepted`, message].filter(Boolean).join('; '));
     } catch (error) {
       this.say(error.message);
     }
@@ -113,10 +114,10 @@ export class OrderEntry {
 
 class Line {
   constructor(drop, place) {
-    this.sku = make('input', { placeholder: 'SKU', ariaLabel: `SKU ${place}`, autocomplete: 'off', spellcheck: false });
+    this.sku = make('input', { placeholder: tr`SKU`, ariaLabel: tr`SKU ${place}`, autocomplete: 'off', spellcheck: false });
     this.sku.setAttribute('list', 'skus');
-    this.quantity = make('input', { value: '1', inputMode: 'numeric', ariaLabel: `Pieces of SKU ${place}`, className: 'few', autocomplete: 'off' });
-    this.remove = make('button', { type: 'button', className: 'edged', textContent: '×', ariaLabel: `Leave out SKU ${place}`, click: drop });
+    this.quantity = make('input', { value: '1', inputMode: 'numeric', ariaLabel: tr`Pieces of SKU ${place}`, className: 'few', autocomplete: 'off' });
+    this.remove = make('button', { type: 'button', className: 'edged', textContent: '×', ariaLabel: tr`Leave out SKU ${place}`, click: drop });
     [this.skuFault, this.quantityFault] = [1, 2].map((i) => make('p', { className: 'fault', id: `entry-fault-${Line.count = (Line.count ?? 0) + 1}-${i}`, hidden: true }));
     this.sku.setAttribute('aria-describedby', this.skuFault.id);
     this.quantity.setAttribute('aria-describedby', this.quantityFault.id);
@@ -127,7 +128,7 @@ class Line {
   /** {sku, quantity}; null where one is wrong. */
   async read() {
     const sku = this.sku.value.trim();
-    const fault = sku ? await unknown(sku) : 'a SKU was expected';
+    const fault = sku ? await unknown(sku) : tr`a SKU was expected`;
     mark(this.sku, fault, this.skuFault);
     let quantity = null;
     try {
@@ -144,7 +145,7 @@ class Line {
 async function unknown(sku) {
   const { skus } = await find(sku).catch(() => ({ skus: [{ sku }] })); // the server will refuse it
   if (skus.some((stocked) => stocked.sku === sku)) return '';
-  return `there is no ${sku}${skus.length ? `; is ${skus[0].sku} meant?` : ''}`;
+  return tr`there is no ${sku}${skus.length ? tr`; is ${skus[0].sku} meant?` : ''}`;
 }
 
 /** What `read` makes of a field's text; null where it throws, and the field says why. */

@@ -4,8 +4,8 @@
 
 import { get } from '../base/api.js';
 import { $, make, on, press } from '../base/dom.js';
-import { counted } from '../base/numbers.js';
 import { ROOT } from '../base/root.js';
+import { plural, tr } from '../language/texts.js';
 import { isOver, OrderRow } from './order_row.js';
 
 const BIG = matchMedia('(pointer: coarse), (max-width: 760px)'); // as in control.css
@@ -160,9 +160,9 @@ export class OrderList {
   }
 
   draw() {
-    $('total').textContent = counted(this.total, 'order');
+    $('total').textContent = plural(this.total, '{n} order', '{n} orders');
     $('news').hidden = !this.fresh && !this.missed;
-    $('news').textContent = this.fresh ? `${this.fresh} new: show` : 'there may be new orders: show';
+    $('news').textContent = this.fresh ? tr`${this.fresh} new: show` : tr`there may be new orders: show`;
     this.inside.style.height = `${this.rowHeight * this.total}px`;
     const [first, count] = this.inSight;
     const from = Math.max(first, this.first);

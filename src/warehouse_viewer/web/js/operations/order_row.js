@@ -3,14 +3,15 @@
 
 import { make } from '../base/dom.js';
 import { OrderState } from '../base/message_enums.js';
+import { tr } from '../language/texts.js';
 import { ORDER_STATES } from '../base/words.js';
 
 export class OrderRow {
   /** `cancel(order)` and `open(order)` are called with the order that the row shows. */
   constructor(cancel, open) {
-    this.name = make('button', { type: 'button', className: 'order-name', title: 'Its history, units and urgency', click: () => open(this.order) });
+    this.name = make('button', { type: 'button', className: 'order-name', title: tr`Its history, units and urgency`, click: () => open(this.order) });
     this.cells = [0, 1, 2, 3].map(() => make('span'));
-    this.button = make('button', { textContent: 'Cancel', click: () => cancel(this.order) });
+    this.button = make('button', { textContent: tr`Cancel`, click: () => cancel(this.order) });
     this.cells[0].append(this.name);
     this.element = make('div', {}, ...this.cells, make('span', {}, this.button));
     this.element.setAttribute('role', 'listitem');
@@ -27,13 +28,13 @@ export class OrderRow {
     const pieces = piecesOf(order);
     const texts = [order.reference, [ORDER_STATES[order.state], order.station].filter(Boolean).join(' '), late.text, pieces];
     this.cells.forEach((cell, i) => i && Object.assign(cell, { textContent: texts[i] }));
-    this.name.textContent = order.reference || `order ${order.order_id}`;
+    this.name.textContent = order.reference || tr`order ${order.order_id}`;
     this.cells[2].className = late.isLate ? 'late' : 'dim';
     this.cells[3].title = pieces;
     this.element.className = late.isLate ? 'order is-late' : 'order';
     this.element.dataset.order = order.order_id;
     this.button.hidden = isOver(order);
-    this.button.ariaLabel = `Cancel ${order.reference}`;
+    this.button.ariaLabel = tr`Cancel ${order.reference}`;
   }
 }
 
@@ -50,7 +51,7 @@ export function piecesOf({ lines }) {
 export function lateness({ due, completed, state }, now) {
   if (!due || state === OrderState.CANCELLED) return { isLate: false, text: '' };
   const left = due - (completed || now);
-  const minutes = `${Math.max(1, Math.round(Math.abs(left) / 60))} min`;
-  if (left < 0) return { isLate: true, text: `${minutes} late` };
-  return { isLate: false, text: completed ? 'in time' : `in ${minutes}` };
+  const minutes = tr`${Math.max(1, Math.round(Math.abs(left) / 60))} min`;
+  if (left < 0) return { isLate: true, text: tr`${minutes} late` };
+  return { isLate: false, text: completed ? tr`in time` : tr`in ${minutes}` };
 }

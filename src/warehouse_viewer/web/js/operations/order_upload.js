@@ -3,17 +3,20 @@
 
 import { post } from '../base/api.js';
 import { $, make, on } from '../base/dom.js';
-import { counted, number } from '../base/numbers.js';
+import { number } from '../language/numbers.js';
+import { plural, tr } from '../language/texts.js';
 
 const MOST = 4_000_000; // characters
 const MOST_FAULTS = 20; // faults that the server lists
-const SAVE_AS = "save it as CSV in UTF-8 (in spreadsheets: 'CSV UTF-8')";
+const SAVE_AS = tr`save it as CSV in UTF-8 (in spreadsheets: 'CSV UTF-8')`;
 
 const isFile = (event) => event.dataTransfer?.types.includes('Files');
 
+const ordersOf = (count) => plural(count, '{n} order', '{n} orders');
+
 /** What a table has: '2 orders, 3 lines, 4 pieces'. */
 export function sizeOf({ orders, lines, pieces }) {
-  return [[orders, 'order'], [lines, 'line'], [pieces, 'piece']].map(([n, word]) => counted(n, word)).join(', ');
+  return [ordersOf(orders), plural(lines, '{n} line', '{n} lines'), plural(pieces, '{n} piece', '{n} pieces')].join(', ');
 }
 
 export class OrderUpload {
@@ -54,7 +57,7 @@ export class OrderUpload {
       this.table = await textOf(file);
       this.show(await this.send(true));
     } catch (error) {
-      this.say(`${file.name} is not accepted`, error.message);
+      this.say(tr`${file.name} is not accepted`, error.message);
     }
   }
 
@@ -64,12 +67,12 @@ export class OrderUpload {
 
   show(answer) {
     if (!answer.accepted) {
-      const some = answer.faults.length < MOST_FAULTS ? 'What is wrong' : `The first ${MOST_FAULTS} faults`;
-      this.say(`${this.name} is not accepted`, `None of its orders is in the list. ${some}:`, answer.faults);
+      const some = answer.faults.length < MOST_FAULTS ? tr`What is wrong` : tr`The first ${MOST_FAULTS} faults`;
+      this.say(tr`${this.name} is not accepted`, tr`None of its orders is in the list. ${some}:`, answer.faults);
       return;
     }
-    this.say(this.name, `${sizeOf(answer)}. Nothing is wrong with them.`);
-    Object.assign($('sheet-yes'), { hidden: false, disabled: false, textContent: `Submit ${counted(answer.orders, 'order')}` });
+    this.say(this.name, tr`${sizeOf(answer)}. Nothing is wrong with them.`);
+    Object.assign($('sheet-yes'), { hidden: false, disabled: false, textContent: tr`Submit ${ordersOf(answer.orders)}` });
     $('sheet-yes').focus();
   }
 
@@ -82,9 +85,9 @@ export class OrderUpload {
         return;
       }
       $('sheet').close();
-      this.done(`${sizeOf(answer)} of ${this.name} are accepted`);
+      this.done(tr`${sizeOf(answer)} of ${this.name} are accepted`);
     } catch (error) {
-      this.say(`Is ${this.name} accepted?`, `${error.message}. Look in the list for its orders before you send it again: all of them are there, or none.`);
+      this.say(tr`Is ${this.name} accepted?`, tr`${error.message}. Look in the list for its orders before you send it again: all of them are there, or none.`);
     }
   }
 
@@ -101,15 +104,15 @@ export class OrderUpload {
 
 /** A file's text; an Error that says why it has none. */
 async function textOf(file) {
-  if (file.size > MOST) throw new Error(`it has ${number(file.size / 1e6, 1)} MB; ${MOST / 1e6} MB or less were expected: split it`);
+  if (file.size > MOST) throw new Error(tr`it has ${number(file.size / 1e6, 1)} MB; ${MOST / 1e6} MB or less were expected: split it`);
   const bytes = await file.arrayBuffer();
   let text = '';
   try {
     text = new TextDecoder('utf-8', { fatal: true }).decode(bytes);
   } catch {
-    throw new Error(`it is not in UTF-8; ${SAVE_AS}`);
+    throw new Error(tr`it is not in UTF-8; ${SAVE_AS}`);
   }
-  if (text.includes('\0')) throw new Error(`it is not text; ${SAVE_AS}`);
-  if (!text.trim()) throw new Error('there is nothing in it');
+  if (text.includes('\0')) throw new Error(tr`it is not text; ${SAVE_AS}`);
+  if (!text.trim()) throw new Error(tr`there is nothing in it`);
   return text;
 }

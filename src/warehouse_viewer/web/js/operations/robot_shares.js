@@ -2,8 +2,9 @@
 // How many robots do what at a glance, what work that is, and which of them wait.
 
 import { $, make } from '../base/dom.js';
-import { number } from '../base/numbers.js';
+import { number } from '../language/numbers.js';
 import { ROOT } from '../base/root.js';
+import { tr } from '../language/texts.js';
 import { lasting } from '../base/time.js';
 import { ACTIVITY, ACTIVITY_CLASS, ACTIVITY_NAMES, counted, countedWork } from '../base/words.js';
 
@@ -18,7 +19,7 @@ export function sharesOf(activities) {
 export class RobotShares {
   /** `fleet` from the server; null without a coordinator. */
   show(fleet) {
-    $('fleet').textContent = fleet ? '' : 'no coordinator runs';
+    $('fleet').textContent = fleet ? '' : tr`no coordinator runs`;
     if (!fleet) return;
     const shares = sharesOf(fleet.activities ?? {});
     $('robots').replaceChildren(...shares.map(({ text, look, count }) => {
@@ -30,7 +31,7 @@ export class RobotShares {
       make('li', {}, make('i', { className: `key ${look}` }), make('b', { textContent: count }), ` ${text}`))));
     const { work, robots: { manual, out_of_service: out }, transports } = fleet;
     $('work').textContent = [countedWork(work), counted({ manual, out_of_service: out }, '')].filter(Boolean).join(', ');
-    $('fleet').textContent = `${number(transports.under_way)} transports under way, ${number(transports.open)} waiting for a robot`;
+    $('fleet').textContent = tr`${number(transports.under_way)} transports under way, ${number(transports.open)} waiting for a robot`;
     this.showWaits(fleet);
   }
 
@@ -38,7 +39,7 @@ export class RobotShares {
     const more = waiting.length - MOST_WAITS;
     const longest = [...waiting].sort((a, b) => a.since - b.since).slice(0, MOST_WAITS);
     $('waiting').replaceChildren(...longest.map(({ robot, since, text: why }) => (
-      make('li', {}, make('a', { href: `${ROOT}/#kiva${robot}`, textContent: `kiva${robot}` }), ` waits ${lasting(time - since)} ${why}`))),
-    ...more > 0 ? [make('li', { className: 'dim', textContent: `and ${more} more` })] : []);
+      make('li', {}, make('a', { href: `${ROOT}/#kiva${robot}`, textContent: `kiva${robot}` }), tr` waits ${lasting(time - since)} ${why}`))),
+    ...more > 0 ? [make('li', { className: 'dim', textContent: tr`and ${more} more` })] : []);
   }
 }

@@ -5,10 +5,11 @@
 import { put } from '../base/api.js';
 import { $, make, press } from '../base/dom.js';
 import { StationMode } from '../base/message_enums.js';
-import { number, percent } from '../base/numbers.js';
+import { number, percent } from '../language/numbers.js';
 import { knownPerson } from '../base/person.js';
 import { ROOT } from '../base/root.js';
 import { Choice, waitsOf } from '../base/station.js';
+import { tr } from '../language/texts.js';
 import { lasting } from '../base/time.js';
 import { ACTIVITY_CLASS, ACTIVITY_NAMES, STATION_STATES } from '../base/words.js';
 
@@ -28,7 +29,7 @@ export class Stations {
     }
     for (const station of stations) this.rows.get(station.name).show(station, this.now);
     const open = stations.filter((station) => station.open).length;
-    $('stations-sum').textContent = `${open} of ${stations.length} open`;
+    $('stations-sum').textContent = tr`${open} of ${stations.length} open`;
   }
 
   /** It is `now` [s], simulated. */
@@ -47,11 +48,11 @@ class Row {
     this.state = make('span', { className: 'badge' });
     this.waits = make('div', { className: 'waits-text' });
     this.queue = make('div', { className: 'queue' });
-    [this.orders, this.rate, this.busy] = ['orders', 'pieces/h', 'busy'].map((label) => cell('number right', label));
+    [this.orders, this.rate, this.busy] = [tr`orders`, tr`pieces/h`, tr`busy`].map((label) => cell('number right', label));
     this.gate = make('button', { className: 'edged', click: () => act(this.set(!this.station.open, this.station.mode)) });
     this.hand = make('button', { className: 'edged', click: () => act(this.set(this.station.open,
       this.isByHand ? StationMode.AUTOMATIC : StationMode.MANUAL)) });
-    this.screen = make('a', { className: 'button edged', textContent: 'Screen' });
+    this.screen = make('a', { className: 'button edged', textContent: tr`Screen` });
     const title = make('th', { scope: 'row' }, this.name, this.kind);
     const does = make('td', { className: 'does' }, this.state);
     this.element = make('tr', {}, title, does, make('td', { className: 'who' }, this.waits, this.queue),
@@ -82,27 +83,27 @@ class Row {
     if (JSON.stringify(before) === JSON.stringify(station)) return;
     const { name, kind, open, activity } = station, picks = kind === 'PICK';
     this.name.textContent = name;
-    this.kind.textContent = picks ? 'picking' : 'replenishing';
+    this.kind.textContent = picks ? tr`picking` : tr`replenishing`;
     this.element.className = open ? 'station' : 'station shut';
     this.element.dataset.station = name;
     this.state.className = `badge ${ACTIVITY_CLASS[ACTIVITY_NAMES.indexOf(activity)] ?? ''}`;
-    this.state.textContent = !open && activity === 'RESTING' ? 'closed' : STATION_STATES[activity];
-    this.orders.lastChild.textContent = picks ? `${station.orders.length} of ${station.slots}` : '–';
+    this.state.textContent = !open && activity === 'RESTING' ? tr`closed` : STATION_STATES[activity];
+    this.orders.lastChild.textContent = picks ? tr`${station.orders.length} of ${station.slots}` : '–';
     this.rate.lastChild.textContent = number(station.pieces_per_hour);
     this.busy.lastChild.textContent = percent(station.busy_fraction);
-    this.gate.textContent = open ? 'Close' : 'Open';
-    this.hand.textContent = 'Manual';
+    this.gate.textContent = open ? tr`Close` : tr`Open`;
+    this.hand.textContent = tr`Manual`;
     press(this.hand, this.isByHand);
-    this.hand.title = this.isByHand ? 'A person works here; press for automatic' : 'It works automatically; press for a person at its screen';
+    this.hand.title = this.isByHand ? tr`A person works here; press for automatic` : tr`It works automatically; press for a person at its screen`;
     for (const button of [this.gate, this.hand]) button.ariaLabel = `${button.textContent}: ${name}`;
     this.screen.href = `${ROOT}/station/${encodeURIComponent(name)}`;
-    this.screen.ariaLabel = `Screen of ${name}, for a person there`;
+    this.screen.ariaLabel = tr`Screen of ${name}, for a person there`;
     this.showQueue(station.queue);
   }
 
   showQueue(queue) {
     const more = queue.length - CHIPS;
-    this.queue.replaceChildren(...queue.slice(0, CHIPS).map(chip), ...more > 0 ? [make('span', { className: 'dim', textContent: `and ${more} more` })] : []);
+    this.queue.replaceChildren(...queue.slice(0, CHIPS).map(chip), ...more > 0 ? [make('span', { className: 'dim', textContent: tr`and ${more} more` })] : []);
   }
 
   tick(now) {
@@ -120,7 +121,7 @@ function cell(className, label) {
 
 function chip({ unit, robot, stands, is_long: isLong }) {
   const waits = robot && stands >= 10;
-  const title = robot ? `unit ${unit} on kiva${robot}${waits ? `, which has stood for ${lasting(stands)}` : ', under way'}` : `unit ${unit}: a robot is on its way to it`;
+  const title = robot ? tr`unit ${unit} on kiva${robot}${waits ? tr`, which has stood for ${lasting(stands)}` : tr`, under way`}` : tr`unit ${unit}: a robot is on its way to it`;
   const out = make('span', { className: isLong ? 'chip is-long' : robot ? 'chip' : 'chip is-far', title, textContent: waits ? `${unit} · ${lasting(stands)}` : `${unit}` });
   return out;
 }

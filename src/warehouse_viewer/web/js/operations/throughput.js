@@ -3,7 +3,8 @@
 
 import { axis, faint, font, Plot } from '../base/charts.js';
 import { $, token } from '../base/dom.js';
-import { number } from '../base/numbers.js';
+import { number } from '../language/numbers.js';
+import { tr } from '../language/texts.js';
 
 const PARTIAL = 15; // shortest part of the present interval that has a rate [s]
 const HOUR = 60; // [min]
@@ -44,8 +45,8 @@ export class ThroughputChart {
     const picked = pointsOf(throughput, throughput.items_picked);
     const stored = smoothed(pointsOf(throughput, throughput.pieces_stored));
     const line = bound ? [{ x: -HOUR, y: bound }, { x: 0, y: bound }] : [];
-    $('chart-throughput').ariaLabel = `Pieces per hour, over the last hour; in the last minute ${picked.at(-1)?.y ?? 0} `
-      + `picked and ${Math.round(stored.at(-1)?.y ?? 0)} put in; the upper bound is ${Math.round(bound)}`;
+    $('chart-throughput').ariaLabel = tr`Pieces per hour, over the last hour; in the last minute ${picked.at(-1)?.y ?? 0} `
+      + tr`picked and ${Math.round(stored.at(-1)?.y ?? 0)} put in; the upper bound is ${Math.round(bound)}`;
     return this.plot.show(picked, stored, line);
   }
 }
@@ -54,22 +55,22 @@ function look() {
   return {
     type: 'bar',
     datasets: [
-      { label: 'picked', backgroundColor: token('moving'), borderRadius: 2, categoryPercentage: 1, barPercentage: 0.8, maxBarThickness: 12 },
-      { type: 'line', label: 'put in', yAxisID: 'stored', borderColor: token('working'), backgroundColor: faint('working', 0.2), borderWidth: 1.5, pointRadius: 0, tension: 0.2 },
-      { type: 'line', label: 'upper bound', borderColor: token('dim'), borderDash: [4, 4], borderWidth: 1.25, pointRadius: 0 },
+      { label: tr`picked`, backgroundColor: token('moving'), borderRadius: 2, categoryPercentage: 1, barPercentage: 0.8, maxBarThickness: 12 },
+      { type: 'line', label: tr`put in`, yAxisID: 'stored', borderColor: token('working'), backgroundColor: faint('working', 0.2), borderWidth: 1.5, pointRadius: 0, tension: 0.2 },
+      { type: 'line', label: tr`upper bound`, borderColor: token('dim'), borderDash: [4, 4], borderWidth: 1.25, pointRadius: 0 },
     ],
     options: {
       interaction: { mode: 'nearest', axis: 'x', intersect: false },
       scales: {
-        x: axis('minutes ago', { ticks: { stepSize: 15, callback: (minutes) => (minutes ? -minutes : 'now') }, grid: { display: false }, scale: { min: -HOUR, max: 0, offset: false } }),
-        y: axis('pieces per hour', { ticks: { callback: (rate) => number(rate) }, scale: { beginAtZero: true, grace: '5%' } }),
+        x: axis(tr`minutes ago`, { ticks: { stepSize: 15, callback: (minutes) => (minutes ? -minutes : tr`now`) }, grid: { display: false }, scale: { min: -HOUR, max: 0, offset: false } }),
+        y: axis(tr`pieces per hour`, { ticks: { callback: (rate) => number(rate) }, scale: { beginAtZero: true, grace: '5%' } }),
         // Bundles are many pieces at once: upon one scale they would press what is picked to the floor.
-        stored: axis('put in per hour', { ticks: { callback: (rate) => number(rate) }, grid: { display: false }, scale: { position: 'right', beginAtZero: true, suggestedMax: 10, grace: '5%' } }),
+        stored: axis(tr`put in per hour`, { ticks: { callback: (rate) => number(rate) }, grid: { display: false }, scale: { position: 'right', beginAtZero: true, suggestedMax: 10, grace: '5%' } }),
       },
       plugins: {
         legend: { display: false },
         tooltip: { backgroundColor: token('raised'), titleColor: token('text'), bodyColor: token('text'), borderColor: token('line'), borderWidth: 1, titleFont: font(), bodyFont: font(),
-          callbacks: { title: ([{ parsed }]) => `${Math.max(0, Math.round(-parsed.x))} min ago`, label: ({ dataset, parsed }) => ` ${dataset.label}: ${number(parsed.y)}` } },
+          callbacks: { title: ([{ parsed }]) => tr`${Math.max(0, Math.round(-parsed.x))} min ago`, label: ({ dataset, parsed }) => ` ${dataset.label}: ${number(parsed.y)}` } },
       },
     },
   };

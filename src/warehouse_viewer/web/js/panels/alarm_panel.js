@@ -5,6 +5,7 @@ import { AlarmRow } from '../base/alarm_row.js';
 import { post } from '../base/api.js';
 import { $, make } from '../base/dom.js';
 import { knownPerson, personOf } from '../base/person.js';
+import { tr } from '../language/texts.js';
 
 export class AlarmPanel {
   /** `select(name)` is called for what an alarm shows on the floor. */
@@ -57,7 +58,7 @@ export class AlarmPanel {
   async sent(request, what = '') {
     try {
       const { message } = await request();
-      this.say(what && `${what}${message || 'done'}`, 'done');
+      this.say(what && `${what}${message || tr`done`}`, 'done');
     } catch (error) {
       this.say(`${what}${error.message}`, 'refused');
     }

@@ -3,8 +3,9 @@
 
 import { post } from '../base/api.js';
 import { $, enable, on, setIcon, setText } from '../base/dom.js';
-import { number } from '../base/numbers.js';
+import { number } from '../language/numbers.js';
 import { confirmed } from '../base/question.js';
+import { tr } from '../language/texts.js';
 import { clock } from '../base/time.js';
 
 const STEP = 0.1, UNDO = 5; // [s], simulated
@@ -22,10 +23,10 @@ export class Bar {
     this.latest = 0; // simulated time that was reached [s]
     on($('pause'), 'click', () => this.act(this.paused ? 'resume' : 'pause'));
     on($('step'), 'click', () => this.step());
-    on($('undo'), 'click', () => this.act('undo', { seconds: UNDO }, `${UNDO} s undone`));
+    on($('undo'), 'click', () => this.act('undo', { seconds: UNDO }, tr`${UNDO} s undone`));
     on($('reset'), 'click', () => this.reset());
     on($('checkpoint'), 'click', () => this.keep());
-    on($('restore'), 'click', () => this.act('restore', { name: CHECKPOINT }, 'checkpoint restored'));
+    on($('restore'), 'click', () => this.act('restore', { name: CHECKPOINT }, tr`checkpoint restored`));
     on($('stop-all'), 'click', () => this.stopAll());
     on($('speed'), 'change', () => this.act('speed', { factor: Number($('speed').value) }));
   }
@@ -37,7 +38,7 @@ export class Bar {
   }
 
   async keep() {
-    if (!await this.act('checkpoint', { name: CHECKPOINT }, 'checkpoint saved')) return;
+    if (!await this.act('checkpoint', { name: CHECKPOINT }, tr`checkpoint saved`)) return;
     sessionStorage.setItem('checkpoint', 'kept');
     this.enable();
   }
@@ -45,26 +46,26 @@ export class Bar {
   /** Asks first, and can be undone where checkpoints can be taken. */
   async reset() {
     const lack = this.lacks.checkpoint;
-    const undone = lack ? `This can't be undone: ${lack}.` : 'It can be undone.';
-    const text = 'Robots, storage units and items go back to where they started, and the time to 0:00:00. '
-      + `Running commands are cancelled; commands sent while the simulation is paused are carried out afterwards. ${undone}`;
-    if (!await confirmed('Reset the warehouse?', text, 'Reset')) return;
+    const undone = lack ? tr`This can't be undone: ${lack}.` : tr`It can be undone.`;
+    const text = tr`Robots, storage units and items go back to where they started, and the time to 0:00:00. `
+      + tr`Running commands are cancelled; commands sent while the simulation is paused are carried out afterwards. ${undone}`;
+    if (!await confirmed(tr`Reset the warehouse?`, text, tr`Reset`)) return;
     const kept = !lack && await this.act('checkpoint', { name: BEFORE_RESET });
     if (!lack && !kept) return;
     if (!await this.act('reset', { time_too: true })) return;
-    const done = 'everything is back at its start';
+    const done = tr`everything is back at its start`;
     if (!kept) this.say(done, 'done');
-    else this.offer(done, 'Undo', () => this.act('restore', { name: BEFORE_RESET }, 'the reset is undone'));
+    else this.offer(done, tr`Undo`, () => this.act('restore', { name: BEFORE_RESET }, tr`the reset is undone`));
   }
 
   /** Stops all robots without a question; lets them go on after one. */
   async stopAll() {
     const isHeld = this.stopped !== null;
-    if (isHeld && !await confirmed('Release the emergency stop?', 'All robots go on with what they did.', 'Release')) return;
+    if (isHeld && !await confirmed(tr`Release the emergency stop?`, tr`All robots go on with what they did.`, tr`Release`)) return;
     const by = localStorage.getItem('person') ?? '';
     try {
       const { message } = await post(`/fleet/${isHeld ? 'release' : 'stop'}`, { by });
-      this.showStopped(isHeld ? null : by || 'you');
+      this.showStopped(isHeld ? null : by || tr`you`);
       this.say(message, 'done');
     } catch (error) {
       this.say(error.message, 'refused');
@@ -75,7 +76,7 @@ export class Bar {
   showStopped(by) {
     if (by === this.stopped) return;
     this.stopped = by;
-    $('stop-all').textContent = by === null ? 'Stop all' : 'Release';
+    $('stop-all').textContent = by === null ? tr`Stop all` : tr`Release`;
     $('stop-all').classList.toggle('is-held', by !== null);
   }
 
@@ -101,7 +102,7 @@ export class Bar {
 
   showLink(live, reason) {
     this.live = false; // until its state is known
-    this.link('away', live ? 'loading …' : `${reason}; trying again`);
+    this.link('away', live ? tr`loading …` : tr`${reason}; trying again`);
     this.enable();
   }
 
@@ -114,15 +115,15 @@ export class Bar {
     this.lacks = status.lacks;
     this.live = true;
     if (status.away) {
-      this.link('away', 'the simulation does not answer');
+      this.link('away', tr`the simulation does not answer`);
       this.enable();
       return;
     }
-    setText($('warehouse'), status.warehouse || 'Warehouse');
+    setText($('warehouse'), status.warehouse || tr`Warehouse`);
     this.showStopped(status.stopped ?? null);
     $('stop-all').hidden = Boolean(this.lacks.stop);
-    const held = this.stopped === null ? '' : `emergency stop by ${this.stopped}`;
-    this.link(held ? 'away' : status.paused ? 'paused' : 'live', held || (status.paused ? 'paused' : 'live'));
+    const held = this.stopped === null ? '' : tr`emergency stop by ${this.stopped}`;
+    this.link(held ? 'away' : status.paused ? 'paused' : 'live', held || (status.paused ? tr`paused` : tr`live`));
     setText($('factor'), status.paused ? '' : `×${number(status.factor, 2)}`);
     this.stepSize = status.step_size;
     this.showPaused(status.paused);
@@ -134,7 +135,7 @@ export class Bar {
     if (paused === this.paused) return;
     this.paused = paused;
     setIcon($('pause'), paused ? 'play' : 'pause');
-    $('pause').querySelector('span').textContent = paused ? 'Resume' : 'Pause';
+    $('pause').querySelector('span').textContent = paused ? tr`Resume` : tr`Pause`;
   }
 
   showSpeed(factor) {
@@ -149,8 +150,8 @@ export class Bar {
 
   enable() {
     const early = {
-      restore: !sessionStorage.getItem('checkpoint') && 'no checkpoint was saved on this page',
-      undo: this.latest < UNDO + SAVED_EVERY && `less than ${UNDO} s have passed`,
+      restore: !sessionStorage.getItem('checkpoint') && tr`no checkpoint was saved on this page`,
+      undo: this.latest < UNDO + SAVED_EVERY && tr`less than ${UNDO} s have passed`,
     };
     for (const [id, action] of Object.entries(NEEDS)) {
       const lack = this.live ? this.lacks[action] || early[id] : $('link').textContent;

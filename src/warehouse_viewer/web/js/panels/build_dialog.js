@@ -3,7 +3,8 @@
 
 import { get, post } from '../base/api.js';
 import { $, on } from '../base/dom.js';
-import { number } from '../base/numbers.js';
+import { number } from '../language/numbers.js';
+import { tr } from '../language/texts.js';
 
 const COUNTS = ['robots', 'shelves', 'items'];
 
@@ -26,7 +27,7 @@ export class BuildDialog {
     this.answer('');
     const { isWorking, ...counts } = this.present();
     $('plan-loss').hidden = !isWorking;
-    $('plan-loss').textContent = `${counts.robots} robots are at work here. Their transports are lost, and a shift ends: its stock lies on storage units that go.`;
+    $('plan-loss').textContent = tr`${counts.robots} robots are at work here. Their transports are lost, and a shift ends: its stock lies on storage units that go.`;
     try {
       this.sizes = await get('/warehouse/sizes');
     } catch (error) {
@@ -37,7 +38,7 @@ export class BuildDialog {
       const field = $(`own-${what}`), limit = this.sizes.limits[what];
       if (!limit) continue;
       field.max = limit;
-      field.parentElement.querySelector('span').textContent = `at most ${number(limit)}`;
+      field.parentElement.querySelector('span').textContent = tr`at most ${number(limit)}`;
     }
     this.showCounts();
     $('builder').showModal(); // not before: what a quick hand chose meanwhile would be overwritten
@@ -60,7 +61,7 @@ export class BuildDialog {
   /** Builds the warehouse; if the server refuses, the dialog stays open and shows why. */
   async build(event) {
     event.preventDefault();
-    this.answer('building …', 'sent');
+    this.answer(tr`building …`, 'sent');
     const [, yes] = $('plan').querySelectorAll('.answers button');
     yes.disabled = true;
     try {
@@ -69,7 +70,7 @@ export class BuildDialog {
         ...Object.fromEntries(COUNTS.map((what) => [what, $(`own-${what}`).valueAsNumber])),
       }));
       $('builder').close();
-      this.say(message || 'built', 'done');
+      this.say(message || tr`built`, 'done');
     } catch (error) {
       this.answer(error.message);
     }

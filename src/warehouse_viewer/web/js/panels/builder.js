@@ -3,6 +3,7 @@
 
 import { post, remove } from '../base/api.js';
 import { $, on } from '../base/dom.js';
+import { tr } from '../language/texts.js';
 import { Placer } from './placer.js';
 import { confirmed } from '../base/question.js';
 
@@ -10,7 +11,7 @@ export class Builder extends Placer {
   /** `say(text, kind, at)` shows the person at the page a text; `present()`: what stands here now,
    *  {robots, shelves, items}, and `isWorking`, whether a fleet works there. */
   constructor(say, present) {
-    super('add', { what: 'a robot', hint: 'click one of the lit cells for the new robot' }, say);
+    super('add', { what: tr`a robot`, hint: tr`click one of the lit cells for the new robot` }, say);
     Object.assign(this, { present });
     on($('build'), 'click', () => this.open());
   }
@@ -27,7 +28,7 @@ export class Builder extends Placer {
   }
 
   async remove(name) {
-    if (!await confirmed(`Remove ${name}?`, 'Its present command is cancelled.', 'Remove')) return;
+    if (!await confirmed(tr`Remove ${name}?`, tr`Its present command is cancelled.`, tr`Remove`)) return;
     await this.attempt(() => remove(`/robots/${name.match(/\d+$/)[0]}`));
   }
 }

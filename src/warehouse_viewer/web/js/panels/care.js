@@ -8,6 +8,7 @@ import { RobotMode, StationMode } from '../base/message_enums.js';
 import { knownPerson } from '../base/person.js';
 import { ROOT } from '../base/root.js';
 import { Choice, waitsOf } from '../base/station.js';
+import { tr } from '../language/texts.js';
 import { lasting } from '../base/time.js';
 import { NEEDS_HELP, shownName, STATION_STATES } from '../base/words.js';
 import { Faults } from './faults.js';
@@ -17,7 +18,7 @@ export { vda5050Of } from './vda5050.js';
 
 const EVENTS = 20, PAST_EVERY = 1000; // events asked for; between two questions about the past [ms]
 const LONG = 10; // from which a span is worth saying [s]
-const WORKS = { [StationMode.AUTOMATIC]: ['automatic', 'It picks by itself'], [StationMode.MANUAL]: ['manual', 'A person works at its screen'] };
+const WORKS = { [StationMode.AUTOMATIC]: [tr`automatic`, tr`It picks by itself`], [StationMode.MANUAL]: [tr`manual`, tr`A person works at its screen`] };
 
 export class Care {
   /** `details` is the Details whose selection it is; `moment()` the time that is shown [s], null: now,
@@ -32,11 +33,11 @@ export class Care {
       return button;
     }));
     this.modes.setAttribute('role', 'group');
-    this.modes.ariaLabel = 'Who works there';
+    this.modes.ariaLabel = tr`Who works there`;
     this.gate = make('button', { className: 'edged', click: () => this.setStation({ open: !this.station.open }) });
-    this.screen = make('a', { className: 'button edged', textContent: 'Screen', title: 'For a person who works there' });
-    this.repair = make('button', { className: 'edged', textContent: 'Repair', title: 'Repairs all that is broken in it', click: () => this.mend('repair') });
-    this.tow = make('button', { className: 'edged', textContent: 'Tow', title: 'Moves it, with its load, to where it is in no way', click: () => this.mend('tow') });
+    this.screen = make('a', { className: 'button edged', textContent: tr`Screen`, title: tr`For a person who works there` });
+    this.repair = make('button', { className: 'edged', textContent: tr`Repair`, title: tr`Repairs all that is broken in it`, click: () => this.mend('repair') });
+    this.tow = make('button', { className: 'edged', textContent: tr`Tow`, title: tr`Moves it, with its load, to where it is in no way`, click: () => this.mend('tow') });
     this.acts = make('div', { className: 'care-acts' }, this.repair, this.tow, this.gate, this.screen);
     this.faults = new Faults((fault, seconds) => this.misbehave(fault, seconds));
     $('care').replaceChildren(this.text, this.errand, this.modes, this.acts, this.faults.element);
@@ -99,7 +100,7 @@ export class Care {
   showWhy(isStation) {
     const { text = '', errand = '', since = 0, cause = '' } = this.why ?? {};
     const span = this.details.world.stamp - since;
-    const words = `${text}${text && span >= LONG ? `, for ${lasting(span)}` : ''}`;
+    const words = `${text}${text && span >= LONG ? tr`, for ${lasting(span)}` : ''}`;
     this.link(this.text, isStation ? '' : words); // a station's facts have it
     this.text.classList.toggle('is-caused', Boolean(cause));
     this.link(this.errand, errand);
@@ -127,8 +128,8 @@ export class Care {
     this.repair.hidden = !needs;
     this.tow.hidden = !needs && mode !== RobotMode.OUT_OF_SERVICE;
     this.faults.show(index >= 0 ? world.scene.robots[index] : null);
-    enable(this.repair, isBroken ? '' : 'nothing is broken in it');
-    enable(this.tow, fleet.runs ? '' : 'no coordinator runs');
+    enable(this.repair, isBroken ? '' : tr`nothing is broken in it`);
+    enable(this.tow, fleet.runs ? '' : tr`no coordinator runs`);
   }
 
   get id() {
@@ -153,7 +154,7 @@ export class Care {
       press(button, button.dataset.stationMode === station.mode);
       enable(button, '');
     }
-    this.gate.textContent = station.open ? 'Close' : 'Open';
+    this.gate.textContent = station.open ? tr`Close` : tr`Open`;
     enable(this.gate, '');
     this.screen.href = `${ROOT}/station/${encodeURIComponent(this.name)}`;
   }
@@ -168,17 +169,17 @@ export class Care {
 
 /** What a station does, waits for and has in its queue, as [what, value]. */
 export function factsOfStation(station, now, link) {
-  if (!station) return [['state', 'no shift is running']];
+  if (!station) return [[tr`state`, tr`no shift is running`]];
   const { open, activity, queue, shelf_id: unit, picks = [], orders = [], kind } = station;
   const [waits] = waitsOf(station, now);
   const units = queue.map(({ unit: next }) => next).filter((next) => next !== unit);
   const robots = queue.filter(({ robot }) => robot).map(({ robot }) => link(`kiva${robot}`));
-  return [['state', !open && activity === 'RESTING' ? 'closed' : STATION_STATES[activity]],
-    ...waits ? [['why', shownName(waits)]] : [],
-    ['unit', unit ? [link(`storage_unit${unit}`), ` ${picks.length} to ${kind === 'PICK' ? 'pick' : 'put in'}`] : 'none is there'],
-    ['queue', robots.length ? robots : 'no robot'],
-    ...units.length ? [['on its way', units.map((next) => link(`storage_unit${next}`))]] : [],
-    ...kind === 'PICK' ? [['orders', String(orders.length)]] : []];
+  return [[tr`state`, !open && activity === 'RESTING' ? tr`closed` : STATION_STATES[activity]],
+    ...waits ? [[tr`why`, shownName(waits)]] : [],
+    [tr`unit`, unit ? [link(`storage_unit${unit}`), tr` ${picks.length} to ${kind === 'PICK' ? tr`pick` : tr`put in`}`] : tr`none is there`],
+    [tr`queue`, robots.length ? robots : tr`no robot`],
+    ...units.length ? [[tr`on its way`, units.map((next) => link(`storage_unit${next}`))]] : [],
+    ...kind === 'PICK' ? [[tr`orders`, String(orders.length)]] : []];
 }
 
 const escaped = (text) => text.replaceAll(/[.*+?^${}()|[\]\\]/g, '\\$&');

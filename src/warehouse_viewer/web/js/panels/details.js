@@ -4,18 +4,19 @@
 import { command, post } from '../base/api.js';
 import { $, enable, make, on, press, setText } from '../base/dom.js';
 import { LiftStatus, RobotMode, Turn } from '../base/message_enums.js';
-import { number, percent } from '../base/numbers.js';
+import { number, percent } from '../language/numbers.js';
+import { tr } from '../language/texts.js';
 import { ACTIVITY, ACTIVITY_CLASS, FAILURE, MODE_WORDS, shownName, STATE } from '../base/words.js';
 
 const LIFT = { drop: LiftStatus.DROP, carry: LiftStatus.CARRY };
 const COMMANDS = ['left', 'right', 'carry', 'drop', 'remove'];
 const LATE = ['pending', 'accepted']; // outcomes of a command that has not ended
 const MODE = {
-  [RobotMode.AUTOMATIC]: 'the coordinator commands it',
-  [RobotMode.MANUAL]: 'you command it; other robots drive around it',
-  [RobotMode.OUT_OF_SERVICE]: 'it takes no commands; other robots drive around it',
+  [RobotMode.AUTOMATIC]: tr`the coordinator commands it`,
+  [RobotMode.MANUAL]: tr`you command it; other robots drive around it`,
+  [RobotMode.OUT_OF_SERVICE]: tr`it takes no commands; other robots drive around it`,
 };
-const WAITS = 'sent; the simulation is paused: the robot starts when it resumes, even after a reset';
+const WAITS = tr`sent; the simulation is paused: the robot starts when it resumes, even after a reset`;
 
 export class Details {
   /** `select(name)` for links to others; `say(text, kind, at)` for what became of a command;
@@ -87,9 +88,9 @@ export class Details {
     $('modes').hidden = !isRobot || !this.fleet.runs;
     if (isRobot) this.refreshRobot(thing.index);
     $('fetch').hidden = thing?.kind !== 'unit' || !this.world.indexOf.has(this.robot);
-    setText($('fetch'), `Send ${this.robot} beneath it`);
+    setText($('fetch'), tr`Send ${this.robot} beneath it`);
     $('pick-up').hidden = thing?.kind !== 'item' || this.fallen.unitOf(thing.index) < 0;
-    this.facts(thing ? this.factsOf(thing) : [['', 'no longer exists']]);
+    this.facts(thing ? this.factsOf(thing) : [['', tr`no longer exists`]]);
     this.care?.refresh();
   }
 
@@ -98,9 +99,9 @@ export class Details {
     $('badge').className = `badge ${ACTIVITY_CLASS[does]}`;
     $('badge').textContent = ACTIVITY[does];
     const load = this.world.shelf[i], over = this.world.unitOver(i);
-    enable($('carry'), load ? 'it carries a storage unit' : over < 0 ? 'no storage unit stands over it' : '');
-    enable($('drop'), load ? '' : 'it carries no storage unit');
-    enable($('remove'), load ? 'it carries a storage unit' : '');
+    enable($('carry'), load ? tr`it carries a storage unit` : over < 0 ? tr`no storage unit stands over it` : '');
+    enable($('drop'), load ? '' : tr`it carries no storage unit`);
+    enable($('remove'), load ? tr`it carries a storage unit` : '');
     const mode = this.fleet.modeOf(this.world.scene.robots[i]);
     for (const button of $('modes').children) press(button, button.dataset.mode === mode);
     $('mode').hidden = !mode;
@@ -119,36 +120,36 @@ export class Details {
     const [x, y, z, yaw] = this.world.placeOf(thing);
     const { index } = thing;
     if (thing.kind === 'station') return this.factsOfStation();
-    const out = [['position', `${metres(x)}, ${metres(y)} m`]];
-    if (Math.abs(z) > 0.005) out.push(['height', `${metres(z)} m`]);
-    out.push(['heading', `${number(Math.round(yaw * 180 / Math.PI) + 0)}°`]);
+    const out = [[tr`position`, `${metres(x)}, ${metres(y)} m`]];
+    if (Math.abs(z) > 0.005) out.push([tr`height`, `${metres(z)} m`]);
+    out.push([tr`heading`, `${number(Math.round(yaw * 180 / Math.PI) + 0)}°`]);
     return out.concat({ robot: () => this.factsOfRobot(index), unit: () => this.factsOfUnit(index),
       item: () => this.factsOfItem(index) }[thing.kind]?.() ?? []);
   }
 
   factsOfRobot(index) {
     const { world } = this, { scene } = world;
-    const out = [['motion', STATE[world.state[index]]], ...this.planOf(scene.robots[index])];
+    const out = [[tr`motion`, STATE[world.state[index]]], ...this.planOf(scene.robots[index])];
     const broken = FAILURE.filter((_, bit) => world.failures[index] >> bit & 1);
-    if (broken.length) out.push(['broken', broken.join(', ')]);
-    if (world.charge.some((c) => c < 100)) out.push(['battery', percent(world.charge[index] / 100)]);
+    if (broken.length) out.push([tr`broken`, broken.join(', ')]);
+    if (world.charge.some((c) => c < 100)) out.push([tr`battery`, percent(world.charge[index] / 100)]);
     const load = world.loadOf(index), limit = world.loadLimit[index];
-    out.push(['load', load < 0 ? 'none' : link(scene.units[load])]);
-    if (limit > 0) out.push(['deceleration', `${number(limit, 1)} m/s² at most, so that the load does not tip`]);
-    if (load >= 0) out.push(['items', String(world.itemsOf[load].length)]);
+    out.push([tr`load`, load < 0 ? tr`none` : link(scene.units[load])]);
+    if (limit > 0) out.push([tr`deceleration`, tr`${number(limit, 1)} m/s² at most, so that the load does not tip`]);
+    if (load >= 0) out.push([tr`items`, String(world.itemsOf[load].length)]);
     return [...out, ...this.parts?.vda5050Of(scene.robots[index]) ?? []];
   }
 
   factsOfUnit(index) {
     const carrier = this.world.carrier[index];
     const items = this.world.itemsOf[index].map((i) => this.world.scene.items[i]);
-    return [['carried by', carrier ? link(`kiva${carrier}`) : 'no robot'], ['items', items.map(shownName).join(', ') || 'none']];
+    return [[tr`carried by`, carrier ? link(`kiva${carrier}`) : tr`no robot`], [tr`items`, items.map(shownName).join(', ') || tr`none`]];
   }
 
   factsOfItem(index) {
     const { scene } = this.world, unit = scene.item_unit[index], home = this.fallen.unitOf(index);
-    if (home >= 0) return [['fell off', link(scene.units[home])]];
-    return [['lies on', unit < 0 ? 'no storage unit' : link(scene.units[unit])]];
+    if (home >= 0) return [[tr`fell off`, link(scene.units[home])]];
+    return [[tr`lies on`, unit < 0 ? tr`no storage unit` : link(scene.units[unit])]];
   }
 
   /** What a station does, waits for and has in its queue. */
@@ -162,9 +163,9 @@ export class Details {
     if (way?.goal) {
       const [x, y] = way.goal;
       const station = this.world.scene.stations.find((s) => Math.hypot(s.x - x, s.y - y) < 0.1);
-      out.push(['goes to', station ? link(station.name) : `${metres(x)}, ${metres(y)} m`]);
+      out.push([tr`goes to`, station ? link(station.name) : `${metres(x)}, ${metres(y)} m`]);
     }
-    if (way?.waitsFor && !this.care?.why) out.push(['waits for', link(`kiva${way.waitsFor}`)]);
+    if (way?.waitsFor && !this.care?.why) out.push([tr`waits for`, link(`kiva${way.waitsFor}`)]);
     return out;
   }
 
@@ -218,9 +219,9 @@ export class Details {
     };
     try {
       const { message } = await request();
-      answer(done || message || 'done', 'done');
+      answer(done || message || tr`done`, 'done');
     } catch (error) {
-      answer(`${error.refused ? 'refused: ' : ''}${error.message}`, 'refused');
+      answer(`${error.refused ? tr`refused: ` : ''}${error.message}`, 'refused');
     }
   }
 
@@ -236,13 +237,13 @@ export class Details {
       Object.assign($('answer'), { hidden: false, textContent: `${name}: ${text}` });
       $('answer').dataset.kind = kind;
     };
-    answer(this.isPaused() ? WAITS : 'sent', 'sent');
+    answer(this.isPaused() ? WAITS : tr`sent`, 'sent');
     try {
       const { outcome, events } = await command(numberOf(robot), name, fields);
-      const text = LATE.includes(outcome) ? 'not yet done' : outcome;
+      const text = LATE.includes(outcome) ? tr`not yet done` : outcome;
       answer([text, events.at(-1)?.text].filter(Boolean).join(': '), outcome);
     } catch (error) {
-      answer(error.refused ? `refused: ${error.message}` : error.message, 'refused');
+      answer(error.refused ? tr`refused: ${error.message}` : error.message, 'refused');
     }
   }
 }

@@ -4,6 +4,7 @@
 import { post } from '../base/api.js';
 import { $ } from '../base/dom.js';
 import { knownPerson } from '../base/person.js';
+import { tr } from '../language/texts.js';
 import { shownName } from '../base/words.js';
 
 const FASTER = 10; // the first minute of a shift
@@ -35,10 +36,10 @@ export class FirstSteps {
   }
 
   async startShift() {
-    this.page.tip.say('a coordinator and orders are coming …', 'sent');
+    this.page.tip.say(tr`a coordinator and orders are coming …`, 'sent');
     await this.resume();
     await post('/shift', { factor: FASTER, by: knownPerson() });
-    this.page.tip.say(`orders come in; for a minute ${FASTER} times as fast`, 'done');
+    this.page.tip.say(tr`orders come in; for a minute ${FASTER} times as fast`, 'done');
     this.page.showAll(false);
   }
 
@@ -46,17 +47,17 @@ export class FirstSteps {
   async drive() {
     const { world, details } = this.page;
     const robots = this.robots((i) => !world.shelf[i] && !world.moving.has(i));
-    if (!robots.length) throw new Error('no robot is free now');
+    if (!robots.length) throw new Error(tr`no robot is free now`);
     await this.resume();
     for (const i of robots) {
       const cell = this.wayOf(i);
       if (!cell) continue;
       const name = this.show(i);
       details.go(...cell);
-      this.page.tip.say(`${name} drives to ${cell.join(', ')}: click any cell, and it goes there`, 'done');
+      this.page.tip.say(tr`${name} drives to ${cell.join(', ')}: click any cell, and it goes there`, 'done');
       return;
     }
-    throw new Error('no robot has a free way now: select one and click a cell');
+    throw new Error(tr`no robot has a free way now: select one and click a cell`);
   }
 
   /** A free cell that a robot reaches along x, then along y, past no robot; null: none. */
@@ -89,12 +90,12 @@ export class FirstSteps {
   async break() {
     const { world } = this.page;
     const [i] = [...this.robots((k) => world.activity[k] === 1 && !world.failures[k]), ...this.robots((k) => !world.failures[k])];
-    if (i === undefined) throw new Error('every robot is broken already');
+    if (i === undefined) throw new Error(tr`every robot is broken already`);
     const id = world.scene.robots[i];
     await this.resume();
     await post(`/robots/${id}/failure`, { kind: 'MOTOR', by: knownPerson() });
     const name = this.show(i);
-    this.page.tip.say(`the drive of ${shownName(name)} is broken: repair it, or see what becomes of the others`, 'done');
+    this.page.tip.say(tr`the drive of ${shownName(name)} is broken: repair it, or see what becomes of the others`, 'done');
   }
 
   /** Selects a robot, and brings it near where there are many; returns its name. */

@@ -3,7 +3,8 @@
 
 import { $, make, setText } from '../base/dom.js';
 import { RobotMode } from '../base/message_enums.js';
-import { counted as number, number as figure } from '../base/numbers.js';
+import { number as figure } from '../language/numbers.js';
+import { plural, tr } from '../language/texts.js';
 import { lasting } from '../base/time.js';
 import { counted, countedWork } from '../base/words.js';
 
@@ -12,21 +13,21 @@ const MOST_WAITING = 50; // rows
 /** What a CoordinatorState counts, as [what, text]. */
 export function factsOf({ robots, work, transports, executed_over_planned: executed, ...state }) {
   return [
-    ['robots', counted(robots)],
-    ['at work', countedWork(work)],
-    ['transports', `${transports.open} open, ${transports.under_way} under way`],
-    ['completed', `${transports.delivered} delivered, ${transports.stored} stored`
-      + (transports.failed ? `, ${transports.failed} failed` : '')],
-    ['planning time', `median ${figure(state.plan_p50, 1)} ms, p99 ${figure(state.plan_p99, 1)} ms`],
-    ['driven / planned time', figure(executed, 2)],
-    ['incidents', incidentsOf(state)],
+    [tr`robots`, counted(robots)],
+    [tr`at work`, countedWork(work)],
+    [tr`transports`, tr`${transports.open} open, ${transports.under_way} under way`],
+    [tr`completed`, tr`${transports.delivered} delivered, ${transports.stored} stored`
+      + (transports.failed ? tr`, ${transports.failed} failed` : '')],
+    [tr`planning time`, tr`median ${figure(state.plan_p50, 1)} ms, p99 ${figure(state.plan_p99, 1)} ms`],
+    [tr`driven / planned time`, figure(executed, 2)],
+    [tr`incidents`, incidentsOf(state)],
   ];
 }
 
 /** '2 collisions, 1 stop before an obstacle, 20 times without progress'; 'nothing'. */
 function incidentsOf({ collisions, blocked, watchdog }) {
-  return [collisions && number(collisions, 'collision'), blocked && `${number(blocked, 'stop')} before an obstacle`,
-    watchdog && `${number(watchdog, 'time')} without progress`].filter(Boolean).join(', ') || 'nothing';
+  return [collisions && plural(collisions, '{n} collision', '{n} collisions'), blocked && plural(blocked, '{n} stop before an obstacle', '{n} stops before an obstacle'),
+    watchdog && plural(watchdog, '{n} time without progress', '{n} times without progress')].filter(Boolean).join(', ') || tr`nothing`;
 }
 
 export class FleetPanel {
@@ -79,7 +80,7 @@ export class FleetPanel {
   }
 
   row({ robot, since, text: reason }) {
-    const text = `kiva${robot} waits ${reason}, for ${lasting(this.fleet.time - since)}`;
+    const text = tr`kiva${robot} waits ${reason}, for ${lasting(this.fleet.time - since)}`;
     return make('button', { textContent: text, click: () => this.select(`kiva${robot}`) });
   }
 

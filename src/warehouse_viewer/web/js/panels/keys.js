@@ -2,16 +2,17 @@
 // Keyboard shortcuts: each presses a button, so that both always do the same.
 
 import { $, make, on } from '../base/dom.js';
+import { tr } from '../language/texts.js';
 
 const KEYS = {
-  ' ': ['pause', 'pause or resume', 'space'], '.': ['step', 'one step'], z: ['undo', 'undo 5 s'],
-  h: ['home', 'see all'], t: ['top', 'from above'], f: ['follow', 'follow the selected'],
-  l: ['scan', 'its laser'], p: ['path', 'its path'], r: ['trails', 'trails of all'],
-  w: ['ways', 'routes of the fleet'], m: ['heat', 'heat map'], o: ['zone', 'close a zone'], g: ['fine', 'fine picture'], x: ['xray', 'see through units'], q: ['left', 'turn left'], e: ['right', 'turn right'],
-  c: ['carry', 'carry the unit above'], v: ['drop', 'drop it'], d: ['theme', 'dark or light'],
-  n: ['add', 'add a robot'], a: ['add-person', 'add a person'], b: ['build', 'build a warehouse'], '?': ['help', 'this help'],
+  ' ': ['pause', tr`pause or resume`, 'space'], '.': ['step', tr`one step`], z: ['undo', tr`undo 5 s`],
+  h: ['home', tr`see all`], t: ['top', tr`from above`], f: ['follow', tr`follow the selected`],
+  l: ['scan', tr`its laser`], p: ['path', tr`its path`], r: ['trails', tr`trails of all`],
+  w: ['ways', tr`routes of the fleet`], m: ['heat', tr`heat map`], o: ['zone', tr`close a zone`], g: ['fine', tr`fine picture`], x: ['xray', tr`see through units`], q: ['left', tr`turn left`], e: ['right', tr`turn right`],
+  c: ['carry', tr`carry the unit above`], v: ['drop', tr`drop it`], d: ['theme', tr`dark or light`],
+  n: ['add', tr`add a robot`], a: ['add-person', tr`add a person`], b: ['build', tr`build a warehouse`], '?': ['help', tr`this help`],
 };
-const MORE = { '/': 'search', '← ↑ ↓ →': 'in the picture: to another robot', Enter: 'bring it near', '+ -': 'larger, smaller', '1 … 6': 'open or close a panel', '[ ]': 'the next robot', Esc: 'select nothing' };
+const MORE = { '/': tr`search`, '← ↑ ↓ →': tr`in the picture: to another robot`, Enter: tr`bring it near`, '+ -': tr`larger, smaller`, '1 … 6': tr`open or close a panel`, '[ ]': tr`the next robot`, Esc: tr`select nothing` };
 const TYPED = 'input[type="search"], input:not([type]), input[type="number"], select';
 
 export class Keys {

@@ -4,7 +4,8 @@
 import { $, make, on, press, setText } from '../base/dom.js';
 import { RobotMode } from '../base/message_enums.js';
 import { found, rowsOf, wanted } from '../base/search.js';
-import { number } from '../base/numbers.js';
+import { number } from '../language/numbers.js';
+import { tr } from '../language/texts.js';
 import { ACTIVITY, ACTIVITY_CLASS, MODE_WORDS, shownName, STATE } from '../base/words.js';
 
 const BIG = matchMedia('(pointer: coarse), (max-width: 760px)'); // as in floor.css
@@ -61,9 +62,9 @@ export class RobotList {
     if (!sku) return;
     const all = [...units.values()].reduce((sum, pieces) => sum + pieces, 0);
     $('found').replaceChildren(make('p', { className: 'dim', textContent: all
-      ? `${sku}: ${number(all)} pieces on ${number(units.size)} units` : `no pieces of ${sku}` }),
+      ? tr`${sku}: ${number(all)} pieces on ${number(units.size)} units` : tr`no pieces of ${sku}` }),
     ...[...units].map(([unit, pieces]) => make('button', {
-      textContent: `unit ${unit}: ${number(pieces)}`, click: () => this.find(`storage_unit${unit}`) })));
+      textContent: tr`unit ${unit}: ${number(pieces)}`, click: () => this.find(`storage_unit${unit}`) })));
     $('found').hidden = false;
     this.refresh();
   }
@@ -120,7 +121,7 @@ export class RobotList {
     const { activity, state, shelf } = this.world;
     const name = this.nameOf(i);
     const does = activity[i], byPerson = this.byPerson(i);
-    const load = shelf[i] ? `unit ${shelf[i]}` : state[i] ? STATE[state[i]] : '';
+    const load = shelf[i] ? tr`unit ${shelf[i]}` : state[i] ? STATE[state[i]] : '';
     const out = make('div', { className: 'row', click: () => this.select(name) },
       make('span', { className: `badge ${ACTIVITY_CLASS[does]}`, textContent: ACTIVITY[does] }), name,
       ...byPerson ? [make('span', { className: 'badge', textContent: byPerson })] : [],

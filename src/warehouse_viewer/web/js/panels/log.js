@@ -2,6 +2,7 @@
 // The running log of events, and those of one model.
 
 import { $, make, on } from '../base/dom.js';
+import { tr } from '../language/texts.js';
 import { clock } from '../base/time.js';
 import { EVENTS, shownName, TROUBLE } from '../base/words.js';
 
@@ -50,7 +51,7 @@ export class EventLog {
     const older = this.own.name === name ? this.own.events.filter(({ id }) => id < (all[0]?.id ?? Infinity)) : [];
     const own = [...older, ...all].slice(-OWN);
     const lines = own.map((event) => this.line(event)).reverse();
-    if (!lines.length) lines.push(make('li', { className: 'dim', textContent: 'none' }));
+    if (!lines.length) lines.push(make('li', { className: 'dim', textContent: tr`none` }));
     $('own-events').replaceChildren(...lines);
   }
 

@@ -2,6 +2,7 @@
 // A button that puts something on the cell that is clicked next.
 
 import { $, isPressed, on, press } from '../base/dom.js';
+import { tr } from '../language/texts.js';
 
 export class Placer {
   /** `what` it puts and `hint` are for the person; `say(text, kind, at)` shows them a text. */
@@ -19,7 +20,7 @@ export class Placer {
     if (wants === this.wantsCell) return;
     press(this.button, wants);
     this.changed(); // the page shows which cells are free
-    if (wants) this.say(`${this.hint}; Esc ends it`, 'sent');
+    if (wants) this.say(tr`${this.hint}; Esc ends it`, 'sent');
   }
 
   /** A click that puts nothing says why. */
@@ -33,7 +34,7 @@ export class Placer {
     this.want(false);
     const isDone = await this.attempt(async () => {
       const { name } = await request();
-      return { message: `${name} stands at ${x}, ${y}` };
+      return { message: tr`${name} stands at ${x}, ${y}` };
     }, at);
     if (!isDone) this.again();
   }
@@ -47,7 +48,7 @@ export class Placer {
   async attempt(request, at) {
     try {
       const { message } = await request();
-      this.say(message || 'done', 'done', at);
+      this.say(message || tr`done`, 'done', at);
       return true;
     } catch (error) {
       this.say(error.message, 'refused', at);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Labels at the storage units that learning robots are asked for.
 
+import { tr } from '../language/texts.js';
+
 const ABOVE = 0.4; // of a label over the unit's place [m]
 
 export class Requested {
@@ -20,7 +22,7 @@ export class Requested {
     return this.world.scene.units.flatMap((name, index) => {
       if (!this.names.has(name)) return [];
       const [x, y, z] = this.world.placeOf({ kind: 'unit', index });
-      return [{ text: 'requested', kind: 'pieces', at: [x, y, z + ABOVE] }];
+      return [{ text: tr`requested`, kind: 'pieces', at: [x, y, z + ABOVE] }];
     });
   }
 }

@@ -3,6 +3,7 @@
 // no coordinator drives; the rail opens it again.
 
 import { $, enable, make, on } from '../base/dom.js';
+import { tr } from '../language/texts.js';
 
 const PATIENCE = 1500; // for news of a coordinator that runs [ms]
 const SHOWN = 'start-shown'; // in localStorage, once it has opened by itself
@@ -34,7 +35,7 @@ export class Start {
 
   /** A coordinator came or went. */
   refresh() {
-    enable($('start-shift'), this.isBusy ? 'it is being started' : this.lack);
+    enable($('start-shift'), this.isBusy ? tr`it is being started` : this.lack);
   }
 
   async take(step) {

@@ -3,15 +3,16 @@
 
 import { make, on } from '../base/dom.js';
 import { marginsOf } from '../base/drawers.js';
+import { tr } from '../language/texts.js';
 
 const GAP = 12; // between the card and what it is about, and the window's edge [px]
 /** Of each stop: the elements that it may be about, the first that is there; its title and text. */
 const STOPS = [
-  [['#stage'], 'The floor', 'Grey robots rest, blue ones drive, green ones work, amber ones wait too long, red ones need help. Drag to turn, wheel or pinch to zoom, click what you want to know more about.'],
-  [['#bar .tools'], 'Time', 'Pause, go faster, save a checkpoint, go back to it. All of it is a simulation: nothing can be spoilt.'],
-  [['#rail [data-drawer="list-panel"]'], 'Robots and search', 'Every robot, and a search for robots, storage units, stations and goods. Selected robots take commands: click a cell of the floor.'],
-  [['#fleet-tab', '#bar .site'], 'What goes wrong', 'Alarms by their cause, each with what helps. Orders, stations and stock are on the page Operations.'],
-  [['#timeline', '#help'], 'What was', 'Every moment of the last hour can be seen again: click it, and Live brings you back.'],
+  [['#stage'], tr`The floor`, tr`Grey robots rest, blue ones drive, green ones work, amber ones wait too long, red ones need help. Drag to turn, wheel or pinch to zoom, click what you want to know more about.`],
+  [['#bar .tools'], tr`Time`, tr`Pause, go faster, save a checkpoint, go back to it. All of it is a simulation: nothing can be spoilt.`],
+  [['#rail [data-drawer="list-panel"]'], tr`Robots and search`, tr`Every robot, and a search for robots, storage units, stations and goods. Selected robots take commands: click a cell of the floor.`],
+  [['#fleet-tab', '#bar .site'], tr`What goes wrong`, tr`Alarms by their cause, each with what helps. Orders, stations and stock are on the page Operations.`],
+  [['#timeline', '#help'], tr`What was`, tr`Every moment of the last hour can be seen again: click it, and Live brings you back.`],
 ];
 
 export class Tour {
@@ -21,10 +22,10 @@ export class Tour {
     this.title = make('h2');
     this.text = make('p');
     this.count = make('span', { className: 'dim' });
-    this.back = make('button', { className: 'edged', textContent: 'Back', click: () => this.go(this.at - 1) });
+    this.back = make('button', { className: 'edged', textContent: tr`Back`, click: () => this.go(this.at - 1) });
     this.next = make('button', { className: 'strong', click: () => this.go(this.at + 1) });
-    const close = make('button', { className: 'plain', title: 'Close the tour', ariaLabel: 'Close the tour', textContent: '×', click: () => this.end() });
-    this.card = make('section', { id: 'tour', className: 'tour panel', hidden: true, ariaLabel: 'Tour' },
+    const close = make('button', { className: 'plain', title: tr`Close the tour`, ariaLabel: tr`Close the tour`, textContent: '×', click: () => this.end() });
+    this.card = make('section', { id: 'tour', className: 'tour panel', hidden: true, ariaLabel: tr`Tour` },
       make('header', {}, this.title, close), this.text, make('footer', {}, this.count, this.back, this.next));
     document.body.append(this.card);
     on(window, 'resize', () => this.place());
@@ -45,9 +46,9 @@ export class Tour {
     const [, title, text] = STOPS[at];
     this.title.textContent = title;
     this.text.textContent = text;
-    this.count.textContent = `${at + 1} of ${STOPS.length}`;
+    this.count.textContent = tr`${at + 1} of ${STOPS.length}`;
     this.back.hidden = at === 0;
-    this.next.textContent = at === STOPS.length - 1 ? 'Done' : 'Next';
+    this.next.textContent = at === STOPS.length - 1 ? tr`Done` : tr`Next`;
     this.place();
   }
 

@@ -2,22 +2,23 @@
 // Facts of robots at a broker by VDA 5050, for the panel of the selection.
 
 import { get } from '../base/api.js';
+import { tr } from '../language/texts.js';
 
 const PERIOD = 2000; // between two questions, while a robot is selected [ms]
-const CONNECTION = { ONLINE: 'online', OFFLINE: 'offline', CONNECTIONBROKEN: 'connection broken' };
+const CONNECTION = { ONLINE: tr`online`, OFFLINE: tr`offline`, CONNECTIONBROKEN: tr`connection broken` };
 
 /** Facts of one robot, as [what, text]; none of a robot at no broker. */
 export function factsOf(robot) {
   if (!robot) return [];
   const outside = robot.driven_by === 'OUTSIDE_MASTER';
-  const by = outside ? (robot.driven ? 'an outside master' : 'no outside master now') : 'this warehouse';
+  const by = outside ? (robot.driven ? tr`an outside master` : tr`no outside master now`) : tr`this warehouse`;
   const out = [
-    ['VDA 5050', `${robot.manufacturer}/${robot.serial} at ${robot.broker}: ${CONNECTION[robot.connection]}`],
-    ['driven by', by],
+    [tr`VDA 5050`, tr`${robot.manufacturer}/${robot.serial} at ${robot.broker}: ${CONNECTION[robot.connection]}`],
+    [tr`driven by`, by],
   ];
-  if (robot.order) out.push(['order', robot.order]);
-  for (const error of robot.errors) out.push(['error', error]);
-  for (const fault of robot.faults ?? []) out.push(['fault', fault]);
+  if (robot.order) out.push([tr`order`, robot.order]);
+  for (const error of robot.errors) out.push([tr`error`, error]);
+  for (const fault of robot.faults ?? []) out.push([tr`fault`, fault]);
   return out;
 }
 

@@ -5,25 +5,29 @@
 import { get, post, remove } from '../base/api.js';
 import { $, make, on, press, setText } from '../base/dom.js';
 import { personOf } from '../base/person.js';
+import { tr } from '../language/texts.js';
 import { lasting } from '../base/time.js';
 
 const CHECK = 300; // after the last change, until the server is asked what would wait [ms]
 const CORNERS = ['x1', 'y1', 'x2', 'y2'];
-const DURATIONS = [[300, '5 min'], [900, '15 min'], [3600, '1 h'], [14400, '4 h'], [0, 'until it is opened']];
-const FORM = `<header><h2 id="zone-title">Close a zone</h2><button type="button" id="zone-close" class="plain" title="Close this panel (Esc)"><svg><use href="/web/icons.svg#close"/></svg></button></header>
+const DURATIONS = [[300, tr`5 min`], [900, tr`15 min`], [3600, tr`1 h`], [14400, tr`4 h`], [0, tr`until it is opened`]];
+
+const corner = (i, legend, x, y) => `<fieldset><legend>${legend}</legend>
+  <label>x <input id="zone-x${i}" type="number" step="any" required aria-label="${x}"></label>
+  <label>y <input id="zone-y${i}" type="number" step="any" required aria-label="${y}"></label></fieldset>`;
+
+const FORM = `<header><h2 id="zone-title">${tr`Close a zone`}</h2><button type="button" id="zone-close" class="plain" title="${tr`Close this panel (Esc)`}"><svg><use href="/web/icons.svg#close"/></svg></button></header>
 <form id="zone-form" novalidate>
-  <p class="dim hint">Drag over the floor, or type two corners. The fleet's robots keep out, and those inside leave.</p>
-  <div class="zone-corners">${['one', 'the opposite'].map((which, i) => `
-    <fieldset><legend>${i ? 'Opposite' : 'One'} corner</legend>
-    <label>x <input id="zone-x${i + 1}" type="number" step="any" required aria-label="x of ${which} corner [m]"></label>
-    <label>y <input id="zone-y${i + 1}" type="number" step="any" required aria-label="y of ${which} corner [m]"></label></fieldset>`).join('')}</div>
-  <label>For <select id="zone-duration">${DURATIONS.map(([s, text]) => `<option value="${s}">${text}</option>`).join('')}</select></label>
-  <label>Why <input id="zone-reason" maxlength="60" required placeholder="spill" autocomplete="off"></label>
+  <p class="dim hint">${tr`Drag over the floor, or type two corners. The fleet's robots keep out, and those inside leave.`}</p>
+  <div class="zone-corners">${corner(1, tr`One corner`, tr`x of one corner [m]`, tr`y of one corner [m]`)}
+    ${corner(2, tr`Opposite corner`, tr`x of the opposite corner [m]`, tr`y of the opposite corner [m]`)}</div>
+  <label>${tr`For`} <select id="zone-duration">${DURATIONS.map(([s, text]) => `<option value="${s}">${text}</option>`).join('')}</select></label>
+  <label>${tr`Why`} <input id="zone-reason" maxlength="60" required placeholder="${tr`spill`}" autocomplete="off"></label>
   <ul id="zone-waits" class="zone-waits" aria-live="polite"></ul>
-  <button id="zone-yes" class="strong wide">Close the zone</button>
+  <button id="zone-yes" class="strong wide">${tr`Close the zone`}</button>
   <p id="zone-answer" class="answer" role="alert" data-kind="refused" hidden></p>
 </form>
-<h3 id="zone-list-title" hidden>Closed now</h3><ul id="zone-list" class="zone-list"></ul>`;
+<h3 id="zone-list-title" hidden>${tr`Closed now`}</h3><ul id="zone-list" class="zone-list"></ul>`;
 
 /** The edges {x_min, …} of the cells from one grid point [x, y] to another. */
 export function rectangleOf([x1, y1], [x2, y2], grid) {
@@ -65,7 +69,7 @@ export class ZoneTool {
     this.sketch();
     if (isOn) {
       this.list();
-      this.page.tip.say('drag over the floor to draw a zone, or type its corners; Esc ends it', 'sent');
+      this.page.tip.say(tr`drag over the floor to draw a zone, or type its corners; Esc ends it`, 'sent');
     } else {
       $('zone').focus();
     }
@@ -156,13 +160,13 @@ export class ZoneTool {
   }
 
   showWaits(waits) {
-    const lines = waits.length ? waits : ['nothing waits: all goes on around it'];
+    const lines = waits.length ? waits : [tr`nothing waits: all goes on around it`];
     $('zone-waits').replaceChildren(...lines.map((text) => make('li', { textContent: text, className: waits.length ? 'is-held' : 'dim' })));
   }
 
   async close() {
     const { corners } = this, reason = $('zone-reason').value.trim();
-    const lack = corners ? reason ? '' : 'why is it closed? One word is enough, as: spill' : 'draw the zone, or type two corners';
+    const lack = corners ? reason ? '' : tr`why is it closed? One word is enough, as: spill` : tr`draw the zone, or type two corners`;
     if (lack) {
       this.answer(lack);
       $(corners ? 'zone-reason' : 'zone-x1').focus();
@@ -174,7 +178,7 @@ export class ZoneTool {
     $('zone-yes').disabled = true;
     try {
       await post('/zones', body);
-      this.page.tip.say(`zone '${reason}' is closed`, 'done');
+      this.page.tip.say(tr`zone '${reason}' is closed`, 'done');
       for (const name of CORNERS) $(`zone-${name}`).value = '';
       $('zone-reason').value = '';
       $('zone-waits').replaceChildren();
@@ -207,17 +211,17 @@ export class ZoneTool {
     const isSame = rows.length === this.rows.size && rows.every(([id, row]) => this.rows.get(id) === row);
     this.rows = new Map(rows);
     this.zones.forEach(({ id, until }) => setText(this.rows.get(id).left,
-      until === null ? 'until it is opened' : `${lasting(until - this.page.world.stamp)} left`));
+      until === null ? tr`until it is opened` : tr`${lasting(until - this.page.world.stamp)} left`));
     if (isSame) return;
     $('zone-list').replaceChildren(...rows.map(([, { item }]) => item));
     $('zone-list-title').hidden = !rows.length;
   }
 
   row(zone) {
-    const left = make('span', { className: 'dim' }), by = zone.closed_by ? [`closed by ${zone.closed_by}`] : [];
-    const inside = zone.inside.length ? [`inside: ${zone.inside.join(', ')}`] : [];
+    const left = make('span', { className: 'dim' }), by = zone.closed_by ? [tr`closed by ${zone.closed_by}`] : [];
+    const inside = zone.inside.length ? [tr`inside: ${zone.inside.join(', ')}`] : [];
     const lines = [...by, ...inside].map((text) => make('span', { className: 'dim', textContent: text }));
-    const button = make('button', { className: 'edged', textContent: 'Open', title: `Open the zone '${zone.reason}' now`, click: () => this.open(zone) });
+    const button = make('button', { className: 'edged', textContent: tr`Open`, title: tr`Open the zone '${zone.reason}' now`, click: () => this.open(zone) });
     return { left, item: make('li', {}, make('b', { textContent: zone.reason }), left, ...lines,
       ...zone.waits.map((text) => make('span', { textContent: text })), button) };
   }
@@ -226,7 +230,7 @@ export class ZoneTool {
     try {
       await personOf();
       await remove(`/zones/${id}`);
-      this.page.tip.say(`zone '${reason}' is open again`, 'done');
+      this.page.tip.say(tr`zone '${reason}' is open again`, 'done');
     } catch (error) {
       this.answer(error.message);
     }

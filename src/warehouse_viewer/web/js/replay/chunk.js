@@ -2,6 +2,7 @@
 // Reads a chunk of a recording, as replay/chunk.py writes it.
 
 import { decode } from '../base/protocol.js';
+import { tr } from '../language/texts.js';
 
 const UPDATE = 1, TEXT = 4, HEAD = 16;
 
@@ -23,7 +24,7 @@ export function read(buffer) {
 function headAt(view, at) {
   const whole = at + HEAD <= view.byteLength;
   const length = whole ? view.getUint32(at + 4, true) : 0;
-  if (!whole || at + HEAD + length > view.byteLength) throw new Error(`the recording is damaged: byte ${at} of a chunk`);
+  if (!whole || at + HEAD + length > view.byteLength) throw new Error(tr`the recording is damaged: byte ${at} of a chunk`);
   return [view.getUint32(at, true), at + HEAD, length];
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plays a Recording: a clock that runs at a speed, and what there was to be seen when it shows that.
 
+import { tr } from '../language/texts.js';
 import { State } from './state.js';
 
 const TICK = 100; // between two pictures [ms]
@@ -104,7 +105,7 @@ export class Player {
   /** Shows a moment from its chunk's begin; `isJump`: it is not the one after what was shown. */
   async openAt(time, isJump) {
     const chunk = this.recording.chunkAt(time);
-    if (!chunk) throw new Error('nothing is recorded yet');
+    if (!chunk) throw new Error(tr`nothing is recorded yet`);
     const [content, scene] = await Promise.all([this.recording.load(chunk), this.recording.scene(chunk.scene)]);
     if (this.shown !== scene) this.show.scene(scene);
     Object.assign(this, { chunk, content, shown: scene, update: 0, text: 0 });

@@ -4,6 +4,7 @@
 
 import { reasonOf } from '../base/request.js';
 import { at } from '../base/root.js';
+import { tr } from '../language/texts.js';
 import { read } from './chunk.js';
 
 const KEPT = 12; // chunks
@@ -15,7 +16,7 @@ export class Recording {
     this.marks = []; // {time, kind, model, text}
     this.loaded = new Map(); // promises by chunk's number
     this.scenes = new Map(); // promises by number
-    Object.assign(this, { id: '', live: false, begin: 0, end: 0, open: 0, about: {}, cut: '' });
+    Object.assign(this, { id: '', live: false, begin: 0, end: 0, open: 0, about: {}, cut: '', forecasts: false });
   }
 
   /** Fetches the index; false if the server keeps no recording. */
@@ -89,5 +90,5 @@ function until({ updates, texts }, end) {
 async function body(answer, kind) {
   if (answer.ok) return answer[kind]();
   const reply = await answer.json().catch(() => ({}));
-  throw new Error(reasonOf(reply.detail) ?? `the server failed: ${answer.status}`);
+  throw new Error(reasonOf(reply.detail) ?? tr`the server failed: ${answer.status}`);
 }

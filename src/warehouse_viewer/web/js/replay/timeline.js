@@ -2,8 +2,10 @@
 // The time line at the bottom of the floor: the last hour of a running warehouse, or a recording.
 
 import { $, on, press, setIcon } from '../base/dom.js';
-import { number } from '../base/numbers.js';
+import { number } from '../language/numbers.js';
+import { tr } from '../language/texts.js';
 import { clock, wallClock } from '../base/time.js';
+import { ForecastFromHere } from './forecast.js';
 import { freeze } from './frozen.js';
 import { linkTo, lookOf, momentOf, timeOf, wallAt } from './link.js';
 import { Player } from './player.js';
@@ -13,8 +15,8 @@ import { Track } from './track.js';
 const REFRESH = 10_000; // of what there is, while a page is live [ms]
 const FIRST = 2000; // for a server that has recorded nothing yet [ms]
 const BEGINS_BACK = 30; // where playing begins if a live page is asked to play [s]
-const PAST = 'the time line shows the past: back to Live first';
-const RECORDED = 'this is a recording';
+const PAST = tr`the time line shows the past: back to Live first`;
+const RECORDED = tr`this is a recording`;
 const RESTING = 0, WAITING = 3; // of Activity: from these on robots don't work
 
 export class Timeline {
@@ -31,6 +33,7 @@ export class Timeline {
     on($('replay-speed'), 'change', () => { this.player.speed = Number($('replay-speed').value); });
     on($('replay-live'), 'click', () => this.goLive());
     on($('replay-copy'), 'click', () => this.copy());
+    this.ahead = new ForecastFromHere(() => this.player.time);
     on(window, 'hashchange', () => this.follow());
     on(window, 'keydown', (event) => this.onKey(event));
     this.start();
@@ -67,10 +70,11 @@ export class Timeline {
   /** A recording has nothing live to show. */
   async begin() {
     $('replay-live').hidden = true;
+    $('replay-forecast').hidden = !this.recording.forecasts;
     const { about, cut } = this.recording;
-    $('warehouse').textContent = about.name ?? 'Recording';
-    document.title = `${about.name ?? 'Recording'} – recording`;
-    if (cut) this.page.tip.say('the recording was cut off; it is played up to there', 'refused');
+    $('warehouse').textContent = about.name ?? tr`Recording`;
+    document.title = tr`${about.name ?? tr`Recording`} – recording`;
+    if (cut) this.page.tip.say(tr`the recording was cut off; it is played up to there`, 'refused');
     await this.enter(this.recording.begin);
   }
 
@@ -135,7 +139,7 @@ export class Timeline {
     document.body.classList.toggle('recorded', reason === RECORDED);
     freeze(reason);
     const { bar } = this.page;
-    if (reason) bar.link('paused', this.recording.live ? 'past' : 'recording');
+    if (reason) bar.link('paused', this.recording.live ? tr`past` : tr`recording`);
     bar.enable();
     $('factor').textContent = '';
   }
@@ -144,10 +148,10 @@ export class Timeline {
     const link = linkTo(location.href, this.isLive ? this.stamp : this.player.time, this.page.looks());
     try {
       await navigator.clipboard.writeText(link);
-      this.page.tip.say('the link is copied', 'done');
+      this.page.tip.say(tr`the link is copied`, 'done');
     } catch { // no permission, or no HTTPS: the address itself can be copied
       history.replaceState(null, '', link);
-      this.page.tip.say('the address above is the link', 'done');
+      this.page.tip.say(tr`the address above is the link`, 'done');
     }
   }
 
@@ -187,7 +191,7 @@ export class Timeline {
     if (isLive || this.track.end < this.recording.end) this.setRange();
     this.track.show(time);
     setIcon($('replay-play'), player.isPlaying ? 'pause' : 'play');
-    $('replay-play').title = player.isPlaying ? 'Pause the playback' : isLive ? 'Play the last half minute' : 'Play';
+    $('replay-play').title = player.isPlaying ? tr`Pause the playback` : isLive ? tr`Play the last half minute` : tr`Play`;
     $('replay-play').setAttribute('aria-label', $('replay-play').title);
     press($('replay-live'), isLive);
     const text = this.textOf(time);
@@ -200,9 +204,9 @@ export class Timeline {
     const { activity } = this.page.world;
     const working = activity.reduce((sum, does) => sum + (does > RESTING && does < WAITING), 0);
     const { kpis } = this;
-    const rows = [...(kpis ? [['pieces/h', Math.round(kpis.item_throughput_per_hour)],
-      ['orders done', kpis.orders_completed], ['late', kpis.orders_late]] : []),
-    ['at work', `${number(working)}/${number(activity.length)}`]];
+    const rows = [...(kpis ? [[tr`pieces/h`, Math.round(kpis.item_throughput_per_hour)],
+      [tr`orders done`, kpis.orders_completed], [tr`late`, kpis.orders_late]] : []),
+    [tr`at work`, `${number(working)}/${number(activity.length)}`]];
     const text = rows.map(([name, value]) => `${typeof value === 'number' ? number(value) : value} ${name}`).join(' · ');
     if ($('replay-figures').textContent !== text) $('replay-figures').textContent = text;
   }

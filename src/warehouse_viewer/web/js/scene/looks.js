@@ -7,14 +7,16 @@ const ROUND = 12; // segments of a circle
 const PAD_HEIGHT = 0.012; // above the floor [m]
 const SPHERE = 1, CYLINDER = 2, CAPSULE = 3, ELLIPSOID = 4, PLANE = 5; // as warehouse_msgs/Look
 
-function primitive(kind, [x, y, z]) {
+const plainBox = ([x, y, z]) => new THREE.BoxBufferGeometry(x, y, z);
+
+function primitive(kind, [x, y, z], box) {
   if (kind === SPHERE || kind === ELLIPSOID) {
     return [new THREE.SphereBufferGeometry(0.5, ROUND, 6).scale(x, y, z)];
   }
   if (kind === CYLINDER) return [rod(x / 2, z)];
   if (kind === CAPSULE) return capsule(x / 2, z - x);
   if (kind === PLANE) return [new THREE.PlaneBufferGeometry(x, y)];
-  return [new THREE.BoxBufferGeometry(x, y, z)];
+  return [box([x, y, z])];
 }
 
 function rod(radius, length) {
@@ -57,14 +59,17 @@ export function sizesOf(links) {
 
 export const ALL = 'all'; // shapes are painted
 
-/** All shapes of some links as one geometry, coloured by vertex. Where `painted`, the largest
- *  shape (or ALL) takes each instance's own tint instead. */
-export function merge(links, painted = false) {
+/** All shapes of some links as one geometry, coloured by vertex. Where `painted`, the largest shape (or
+ *  ALL, or each by the share that a function gives it) takes each instance's own tint instead; `box`
+ *  makes the geometry of boxes. */
+export function merge(links, painted = false, box = plainBox) {
   const largest = largestOf(links);
-  return joined(shapesOf(links).flatMap((shape) => primitive(shape.kind, shape.size).map((geometry) => ({
-    geometry: geometry.toNonIndexed().applyMatrix(shape.matrix),
+  const paintOf = typeof painted === 'function' ? painted
+    : (shape) => (painted === ALL || (painted && volume(shape) === volume(largest)) ? 1 : 0);
+  return joined(shapesOf(links).flatMap((shape) => primitive(shape.kind, shape.size, box).map((geometry) => ({
+    geometry: (geometry.index ? geometry.toNonIndexed() : geometry).applyMatrix(shape.matrix),
     colour: shape.colour,
-    paint: painted === ALL || (painted && volume(shape) === volume(largest)) ? 1 : 0,
+    paint: paintOf(shape),
   }))));
 }
 

@@ -3,6 +3,7 @@
 // near, + and - change how large all is. What is chosen is spoken.
 
 import { $, on } from '../base/dom.js';
+import { tr } from '../language/texts.js';
 import { ACTIVITY } from '../base/words.js';
 
 const WAYS = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowDown: [0, 1], ArrowUp: [0, -1] };
@@ -56,5 +57,5 @@ export function nextFrom([x, y], [wx, wy], points, own = -1) {
 export function speak(world, index) {
   const name = world.nameOf({ kind: 'robot', index }), load = world.shelf[index];
   const [x, y] = world.placeOf({ kind: 'robot', index });
-  $('spoken').textContent = `${name}, ${ACTIVITY[world.activity[index]]}${load ? `, carries unit ${load}` : ''}, at ${x.toFixed(0)}, ${y.toFixed(0)}`;
+  $('spoken').textContent = tr`${name}, ${ACTIVITY[world.activity[index]]}${load ? tr`, carries unit ${load}` : ''}, at ${x.toFixed(0)}, ${y.toFixed(0)}`;
 }

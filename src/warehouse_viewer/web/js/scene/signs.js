@@ -3,6 +3,7 @@
 // a unit that does not come.
 
 import * as THREE from '/three/build/three.module.js';
+import { tr } from '../language/texts.js';
 import { STILL } from './backdrop.js';
 import { Changes } from '../base/changes.js';
 import { apart, namedStations } from './labelled.js';
@@ -79,10 +80,10 @@ export class Signs {
 /** {kind, note} of a sign: robots in its queue, and what a person has to know. */
 export function signOf(queue, station) {
   const count = queue ? String(queue) : '';
-  if (station && !station.open) return { kind: 'sign', note: [count, 'closed'].filter(Boolean).join(' · ') };
+  if (station && !station.open) return { kind: 'sign', note: [count, tr`closed`].filter(Boolean).join(' · ') };
   const waits = Math.floor(station?.waiting ?? 0);
-  if (waits < SOON && station?.activity === 'WAITING') return { kind: 'sign waiting', note: [count, 'no unit'].filter(Boolean).join(' · ') };
+  if (waits < SOON && station?.activity === 'WAITING') return { kind: 'sign waiting', note: [count, tr`no unit`].filter(Boolean).join(' · ') };
   if (waits < SOON) return { kind: 'sign', note: count };
-  const text = waits < LONG ? `${waits} s` : `${Math.floor(waits / 60)} min`;
+  const text = waits < LONG ? tr`${waits} s` : tr`${Math.floor(waits / 60)} min`;
   return { kind: `sign ${waits < LONG ? 'waiting' : 'needs-help'}`, note: [count, text].filter(Boolean).join(' · ') };
 }

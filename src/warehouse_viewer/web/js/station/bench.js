@@ -3,11 +3,12 @@
 // continues without a network for the tasks that are known of the present unit.
 
 import { PickOutcome, StationMode } from '../base/message_enums.js';
+import { tr } from '../language/texts.js';
 import { meaningOf } from './codes.js';
 import { newId } from './outbox.js';
 
 const FLASH = 6000; // duration for which a tote shows that it is complete [ms]
-const COMPLETE = 'take away, set up a new one';
+const COMPLETE = tr`take away, set up a new one`;
 const WRITE_OFF_UNDO = 10_000; // how long a write-off can be taken back [ms]
 
 export class Bench {
@@ -99,7 +100,7 @@ export class Bench {
     const { pending } = this;
     return gone.map(({ position, order_id: order, pieces_left: open, reference }) => {
       const isDone = piecesFor(order, before, pending) >= open;
-      return { position, order, reference, text: isDone ? COMPLETE : 'not ours any more: empty it' };
+      return { position, order, reference, text: isDone ? COMPLETE : tr`not ours any more: empty it` };
     });
   }
 
@@ -112,39 +113,39 @@ export class Bench {
   /** Takes a scanned code; returns {ok, text, sound}. */
   scan(code) {
     const { task } = this;
-    if (!task) return no('nothing is asked for now');
+    if (!task) return no(tr`nothing is asked for now`);
     if (code === task.sku) return this.countOne(task);
     const meaning = meaningOf(code, this.name, this.stations);
     if (meaning.kind === 'tote') return this.intoTote(task, meaning.position);
     const expected = this.expected(task);
-    if (meaning.kind === 'other tote') return no(`${code} is a tote of another station: ${expected}`);
-    return no(`${code} is wrong: ${expected}`);
+    if (meaning.kind === 'other tote') return no(tr`${code} is a tote of another station: ${expected}`);
+    return no(tr`${code} is wrong: ${expected}`);
   }
 
   /** The next thing to scan, in words. */
   expected({ sku, quantity, tote }) {
     const { hand, placed } = this.counted;
-    if (!hand || !tote) return `expected ${sku}`;
-    return `expected tote ${tote}${hand + placed < quantity ? `, or ${sku} once more` : ''}`;
+    if (!hand || !tote) return tr`expected ${sku}`;
+    return tr`expected tote ${tote}${hand + placed < quantity ? tr`, or ${sku} once more` : ''}`;
   }
 
   countOne({ sequence, sku, quantity, tote }) {
     const { hand, placed } = this.counted;
-    if (hand + placed >= quantity) return no(`${quantity} × ${sku} are enough: expected tote ${tote}`);
+    if (hand + placed >= quantity) return no(tr`${quantity} × ${sku} are enough: expected tote ${tote}`);
     this.keep({ sequence, hand: hand + 1, placed });
     if (!tote && hand + placed + 1 === quantity) return this.confirm(quantity);
     const more = quantity - hand - placed - 1;
-    return { ok: true, sound: 'counted', text: `${hand + placed + 1} of ${quantity} × ${sku}${tote ? `: into tote ${tote}` : more ? `, ${more} more` : ''}` };
+    return { ok: true, sound: 'counted', text: tr`${hand + placed + 1} of ${quantity} × ${sku}${tote ? tr`: into tote ${tote}` : more ? tr`, ${more} more` : ''}` };
   }
 
   intoTote({ sequence, sku, quantity, tote }, position) {
     const { hand, placed } = this.counted;
-    if (!tote) return no(`no tote is needed here: expected ${sku}`);
-    if (position !== tote) return no(`that is tote ${position}: expected tote ${tote}`);
-    if (!hand) return no(`nothing is in your hand yet: expected ${sku}`);
+    if (!tote) return no(tr`no tote is needed here: expected ${sku}`);
+    if (position !== tote) return no(tr`that is tote ${position}: expected tote ${tote}`);
+    if (!hand) return no(tr`nothing is in your hand yet: expected ${sku}`);
     if (hand + placed === quantity) return this.confirm(quantity);
     this.keep({ sequence, hand: 0, placed: hand + placed });
-    return { ok: true, sound: 'counted', text: `${hand + placed} of ${quantity} × ${sku} are in tote ${tote}` };
+    return { ok: true, sound: 'counted', text: tr`${hand + placed} of ${quantity} × ${sku} are in tote ${tote}` };
   }
 
   keep(count) {
@@ -159,8 +160,8 @@ export class Bench {
     const isComplete = tote?.left === quantity;
     this.report(task, PickOutcome.DONE, quantity);
     if (isComplete) this.flash({ position: task.tote, order: task.order_id, reference: task.reference, text: COMPLETE });
-    const where = task.tote ? `in tote ${task.tote}` : `put into ${task.item}`;
-    const text = isComplete ? `${task.reference} is complete: take tote ${task.tote} away, set up a new one` : `${quantity} × ${task.sku} ${where}`;
+    const where = task.tote ? tr`in tote ${task.tote}` : tr`put into ${task.item}`;
+    const text = isComplete ? tr`${task.reference} is complete: take tote ${task.tote} away, set up a new one` : `${quantity} × ${task.sku} ${where}`;
     return { ok: true, sound: isComplete ? 'complete' : 'done', text };
   }
 
@@ -177,13 +178,13 @@ export class Bench {
   /** Takes the last report back; returns {ok, text, sound}. */
   undo() {
     const last = this.undoable;
-    if (!last) return no('nothing can be taken back now');
+    if (!last) return no(tr`nothing can be taken back now`);
     const what = last.outcome === PickOutcome.DONE ? `${last.quantity} × ${last.sku}` : last.sku;
     this.last = null;
     this.shelf.write('last', null);
     this.changed.delete(last.tote);
     if (!this.outbox.takeOut(last.sequence)) this.outbox.add({ kind: 'undo', sequence: last.sequence, what });
-    return { ok: true, sound: 'done', text: `${what}: taken back${last.tote ? ` out of tote ${last.tote}` : ''}` };
+    return { ok: true, sound: 'done', text: tr`${what}: taken back${last.tote ? tr` out of tote ${last.tote}` : ''}` };
   }
 
   /** The server has answered an entry of the outbox. */

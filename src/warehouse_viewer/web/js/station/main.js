@@ -6,6 +6,7 @@ import { $, on, press } from '../base/dom.js';
 import { PickOutcome, StationMode } from '../base/message_enums.js';
 import { confirmed } from '../base/question.js';
 import { ownPath } from '../base/root.js';
+import { tr } from '../language/texts.js';
 import { stayAwake } from './awake.js';
 import { Bench } from './bench.js';
 import { meaningOf } from './codes.js';
@@ -58,7 +59,7 @@ class Page {
 
   take(stations) {
     const sound = this.bench.take(stations);
-    if (sound) this.show({ ok: true, sound, text: `unit ${this.bench.state.shelf_id} is here` });
+    if (sound) this.show({ ok: true, sound, text: tr`unit ${this.bench.state.shelf_id} is here` });
     this.view.show();
   }
 
@@ -70,7 +71,7 @@ class Page {
 
   /** What was kept here can't be booked: a person must know, in plain words. */
   refused({ what, kind }, reason) {
-    const text = kind === 'undo' ? `${what} is not taken back: ${reason}` : `${what} is not booked: ${reason}`;
+    const text = kind === 'undo' ? tr`${what} is not taken back: ${reason}` : tr`${what} is not booked: ${reason}`;
     this.show({ ok: false, sound: 'refused', text });
   }
 
@@ -88,14 +89,14 @@ class Page {
     const [short, damaged] = [PickOutcome.SHORT, PickOutcome.DAMAGED];
     const acts = { ALL: () => this.confirm(true), UNDO: () => this.undo(), SHORT: () => this.writeOff(short), DAMAGED: () => this.writeOff(damaged) };
     if (acts[name]) return acts[name]();
-    return this.show({ ok: false, sound: 'refused', text: 'there is no question now that yes or no could answer' });
+    return this.show({ ok: false, sound: 'refused', text: tr`there is no question now that yes or no could answer` });
   }
 
   /** A scanned YES or NO answers the question that is open. */
   answer(code) {
     const { name } = meaningOf(code, this.name, this.bench.stations);
     if (name === 'YES' || name === 'NO') $(name === 'YES' ? 'question-yes' : 'question-no').click();
-    else this.show({ ok: false, sound: 'refused', text: `${code}: answer the question first` });
+    else this.show({ ok: false, sound: 'refused', text: tr`${code}: answer the question first` });
   }
 
   /** Shows the result of act(), or why this device could not keep it. */
@@ -103,7 +104,7 @@ class Page {
     try {
       this.show(act());
     } catch (error) {
-      this.show({ ok: false, sound: 'refused', text: `this device can't keep it: ${error.message}` });
+      this.show({ ok: false, sound: 'refused', text: tr`this device can't keep it: ${error.message}` });
     }
     this.view.show();
   }
@@ -124,13 +125,13 @@ class Page {
     if (!task) return;
     const isEmpty = outcome === PickOutcome.SHORT && bench.isPicking, pieces = this.view.pieces;
     const booked = isEmpty ? await inBin(task).catch(() => null) : pieces;
-    const what = `${booked ?? 'all'} × ${task.sku}`, verb = bench.isPicking ? 'Write off' : 'Leave out';
-    const why = outcome === PickOutcome.DAMAGED ? 'Damaged' : isEmpty ? `Bin ${task.item} is empty` : 'Not there';
-    if (!await confirmed(`${why}?`, `${verb} ${what}, in bin ${task.item}.`, `${verb} ${what}`, 'Back')) return;
-    if (bench.task?.sequence !== task.sequence) return this.show({ ok: false, sound: 'refused', text: `${task.sku} is no longer asked for` });
+    const what = `${booked ?? tr`all`} × ${task.sku}`, verb = bench.isPicking ? tr`Write off` : tr`Leave out`;
+    const why = outcome === PickOutcome.DAMAGED ? tr`Damaged` : isEmpty ? tr`Bin ${task.item} is empty` : tr`Not there`;
+    if (!await confirmed(`${why}?`, tr`${verb} ${what}, in bin ${task.item}.`, `${verb} ${what}`, tr`Back`)) return;
+    if (bench.task?.sequence !== task.sequence) return this.show({ ok: false, sound: 'refused', text: tr`${task.sku} is no longer asked for` });
     this.do(() => {
       bench.report(task, outcome, isEmpty ? 0 : pieces);
-      return { ok: true, sound: 'done', text: `${what} in ${task.item}: written off` };
+      return { ok: true, sound: 'done', text: tr`${what} in ${task.item}: written off` };
     });
   }
 

@@ -4,6 +4,7 @@
 import { $, on } from '../base/dom.js';
 import { ask } from '../base/question.js';
 import { ROOT, at } from '../base/root.js';
+import { tr } from '../language/texts.js';
 import { Shelf } from './shelf.js';
 
 const WORKER = at('/station-worker.js');
@@ -43,11 +44,11 @@ export class Settings {
 
   /** Has the browser keep the page's files, so that it can be reloaded without a network. */
   async keepPage() {
-    const without = 'Picks are kept here all the same, but a reload needs the network';
+    const without = tr`Picks are kept here all the same, but a reload needs the network`;
     try {
-      if (!navigator.serviceWorker) throw new Error('this address is not secure (https)');
+      if (!navigator.serviceWorker) throw new Error(tr`this address is not secure (https)`);
       await navigator.serviceWorker.register(WORKER, { scope: at('/station/') });
-      $('reload-hint').textContent = 'This page can be reloaded without the network.';
+      $('reload-hint').textContent = tr`This page can be reloaded without the network.`;
     } catch (error) {
       $('reload-hint').textContent = `${without}: ${error.message}.`;
     }

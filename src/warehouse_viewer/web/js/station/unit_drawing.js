@@ -2,6 +2,7 @@
 // A storage unit's front, with the bin in which a person works lit.
 
 import { get } from '../base/api.js';
+import { tr } from '../language/texts.js';
 import { within } from '../base/world.js';
 
 const SIDE = 0.8, TOP = 1.8; // of a storage unit [m]
@@ -38,7 +39,7 @@ export class UnitDrawing {
     const { svg, unit, lit, quantity, bins } = this, shown = JSON.stringify([unit, lit, quantity, bins.length]);
     if (shown === this.shown) return;
     this.shown = shown;
-    svg.setAttribute('aria-label', `Storage unit ${unit}, seen from its front; ${lit} is lit`);
+    svg.setAttribute('aria-label', tr`Storage unit ${unit}, seen from its front; ${lit} is lit`);
     svg.innerHTML = front(bins, lit, quantity);
   }
 }

@@ -4,6 +4,7 @@
 
 import { $ } from '../base/dom.js';
 import { StationMode } from '../base/message_enums.js';
+import { tr } from '../language/texts.js';
 import { UnitDrawing } from './unit_drawing.js';
 import { Wall } from './wall.js';
 
@@ -16,7 +17,7 @@ export class View {
     this.front = new UnitDrawing($('front'));
     this.wall = new Wall($('wall'));
     $('name').textContent = bench.name;
-    document.title = `${bench.name}: Kiva warehouse`;
+    document.title = tr`${bench.name}: Kiva warehouse`;
   }
 
   /** Whether what is shown has been there long enough to be meant. */
@@ -26,7 +27,7 @@ export class View {
 
   show() {
     const { bench } = this, { task, state } = bench;
-    $('unit').textContent = state?.shelf_id ? `unit ${state.shelf_id}` : '';
+    $('unit').textContent = state?.shelf_id ? tr`unit ${state.shelf_id}` : '';
     for (const id of ['take', 'buttons']) $(id).hidden = !task && !(id === 'buttons' && bench.undoable);
     $('put').hidden = state?.mode !== StationMode.MANUAL || !bench.isPicking || !state.slots;
     $('idle').hidden = Boolean(task);
@@ -43,21 +44,21 @@ export class View {
     const key = JSON.stringify([sequence, quantity]);
     if (key !== this.shown) Object.assign(this, { shown: key, drawnAt: performance.now(), pieces: quantity });
     const isPicking = bench.isPicking;
-    put('amount', `${isPicking ? 'Take' : 'Put in'} ${quantity} ×`);
+    put('amount', `${isPicking ? tr`Take` : tr`Put in`} ${quantity} ×`);
     put('sku', sku);
     $('sku').classList.toggle('long', sku.length > LONG);
-    put('bin', `${isPicking ? 'from' : 'into'} bin ${item}`);
-    put('progress', hand + placed ? `${hand + placed} of ${quantity} counted${placed ? `, ${placed} in the tote` : ''}` : '');
+    put('bin', isPicking ? tr`from bin ${item}` : tr`into bin ${item}`);
+    put('progress', hand + placed ? tr`${hand + placed} of ${quantity} counted${placed ? tr`, ${placed} in the tote` : ''}` : '');
     const more = bench.tasks.length - 1;
-    put('next', more ? `then ${more} more from this unit` : 'the last one of this unit');
+    put('next', more ? tr`then ${more} more from this unit` : tr`the last one of this unit`);
     this.front.show(bench.state.shelf_id, item, quantity);
     this.showCount(task);
   }
 
   showCount({ quantity, tote }) {
-    const where = tote ? ` in tote ${tote}` : ' put in', { pieces } = this;
-    const all = quantity === 1 ? `1${where}` : `All ${quantity}${where}`;
-    put('confirm', pieces === quantity ? all : `${pieces} of ${quantity}${where}`);
+    const where = tote ? tr` in tote ${tote}` : tr` put in`, { pieces } = this;
+    const all = quantity === 1 ? tr`1${where}` : tr`All ${quantity}${where}`;
+    put('confirm', pieces === quantity ? all : tr`${pieces} of ${quantity}${where}`);
     put('count', pieces);
     for (const id of ['confirm', 'short', 'damaged']) $(id).hidden = false;
     $('confirm').parentElement.querySelector('.count').hidden = quantity === 1;
@@ -89,19 +90,19 @@ export class View {
   /** [text, what to do, the button's text] where there is no task. */
   idle(state) {
     const { bench, link } = this, kept = bench.outbox.entries.length;
-    if (!state) return [link === 'live' ? `There is no station ${bench.name}.` : 'Nothing is known yet.', '', ''];
-    if (state.mode !== StationMode.MANUAL) return [`${state.name} works automatically.`, '', 'Work manually'];
-    if (kept && link !== 'live') return ['All is done here.', 'The next storage unit comes when the network is back.', ''];
-    if (kept) return ['All is done here.', 'Sending it to the server …', ''];
-    const back = 'Back to automatic';
-    if (!state.open) return ['The station is closed.', '', back];
+    if (!state) return [link === 'live' ? tr`There is no station ${bench.name}.` : tr`Nothing is known yet.`, '', ''];
+    if (state.mode !== StationMode.MANUAL) return [tr`${state.name} works automatically.`, '', tr`Work manually`];
+    if (kept && link !== 'live') return [tr`All is done here.`, tr`The next storage unit comes when the network is back.`, ''];
+    if (kept) return [tr`All is done here.`, tr`Sending it to the server …`, ''];
+    const back = tr`Back to automatic`;
+    if (!state.open) return [tr`The station is closed.`, '', back];
     const { length: coming } = state.inbound;
-    if (!coming) return ['Nothing to be done.', 'No storage unit is on its way.', back];
-    return ['The next storage unit is on its way.', coming > 1 ? `${coming} are coming.` : '', back];
+    if (!coming) return [tr`Nothing to be done.`, tr`No storage unit is on its way.`, back];
+    return [tr`The next storage unit is on its way.`, coming > 1 ? tr`${coming} are coming.` : '', back];
   }
 
   showTotes(task) {
-    put('tote', task?.tote ? `tote ${task.tote}` : 'no tote');
+    put('tote', task?.tote ? tr`tote ${task.tote}` : tr`no tote`);
     put('order', task?.reference ?? '');
     $('put').dataset.lit = String(Boolean(task?.tote));
     if (!$('put').hidden) this.wall.show(this.bench.totes, task?.quantity ?? 0);
@@ -112,8 +113,8 @@ export class View {
     const { outbox } = this.bench, kept = outbox.entries.length, isStuck = kept > 0 && outbox.isStuck;
     const isAway = link === 'away' || isStuck;
     $('link').dataset.state = isAway ? 'away' : link;
-    const waiting = kept ? `: ${kept} kept here, nothing is lost` : '';
-    put('link', isAway ? `offline${waiting}` : link === 'idle' ? `no shift is running${waiting}` : 'live');
+    const waiting = kept ? tr`: ${kept} kept here, nothing is lost` : '';
+    put('link', isAway ? tr`offline${waiting}` : link === 'idle' ? tr`no shift is running${waiting}` : tr`live`);
   }
 
   /** Shows what became of something, until the next result. */

@@ -2,6 +2,7 @@
 // The wall of totes: the one that gets the pieces is lit, a complete one asks to be taken away.
 
 import { make } from '../base/dom.js';
+import { tr } from '../language/texts.js';
 
 export class Wall {
   constructor(list) {
@@ -29,7 +30,7 @@ class Place {
 
   show({ position, reference, left, isLit, leaves }, quantity) {
     const state = isLit ? 'lit' : leaves ? 'leaves' : reference ? 'open' : 'free';
-    const text = { lit: `put ${quantity} in`, leaves: leaves?.text, open: left ? `${left} to go` : 'complete', free: 'free' }[state];
+    const text = { lit: tr`put ${quantity} in`, leaves: leaves?.text, open: left ? tr`${left} to go` : tr`complete`, free: tr`free` }[state];
     const order = leaves?.reference ?? reference;
     const shown = JSON.stringify([position, state, text, order]);
     if (shown === this.shown) return;

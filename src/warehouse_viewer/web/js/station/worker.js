@@ -2,14 +2,16 @@
 // Keeps the files of a station's screen, so that a reload works while the network is gone. What the
 // server has is taken first, always; nothing of /api is ever kept.
 
-const NAME = 'station-3';
+const NAME = 'station-4';
 const PATIENCE = 2500; // for the server, before what is kept is taken [ms]
 const MODULES = {
   base: ['api', 'changes', 'dom', 'message_enums', 'question', 'request', 'root', 'world'],
+  language: ['texts'],
   station: [
     'awake', 'bench', 'codes', 'main', 'news', 'outbox', 'scanner', 'send', 'settings', 'shelf', 'sounds', 'unit_drawing', 'view', 'wall',
   ],
 };
+const LANGUAGE = /^\/web\/texts\/[\w-]+\.json$/; // the one that the page asks for
 const PAGE = '/web/station.html';
 const FILES = [PAGE, '/web/design.css', '/web/station.css', '/web/icon.svg', '/web/js/base/theme.js', '/fonts/inter.woff2',
   ...Object.entries(MODULES).flatMap(([room, names]) => names.map((name) => `/web/js/${room}/${name}.js`))];
@@ -32,7 +34,7 @@ self.addEventListener('fetch', (event) => {
   const { request } = event, { pathname, origin } = new URL(request.url);
   if (request.method !== 'GET' || origin !== location.origin) return;
   const key = /^(\/s\/[^/]+)?\/station\/[^/]+$/.test(pathname) ? PAGE : pathname;
-  if (FILES.includes(key)) event.respondWith(freshOrKept(request, key));
+  if (FILES.includes(key) || LANGUAGE.test(key)) event.respondWith(freshOrKept(request, key));
 });
 
 /** The server's answer, which is kept, too; or what is kept where it does not answer soon. */

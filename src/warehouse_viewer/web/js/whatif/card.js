@@ -3,11 +3,12 @@
 
 import { make } from '../base/dom.js';
 import { ROOT } from '../base/root.js';
+import { tr } from '../language/texts.js';
 import { pathOf } from './server.js';
-import { BADGES, describe, duration, interval, limitOf, plural } from './words.js';
+import { BADGES, describe, duration, interval, limitOf, runsOf } from './words.js';
 
-const FIGURES = [['pieces', 'pieces an hour', 0, ''], ['share', 'of what stations can', 0, ' %'], ['late', 'orders late', 1, ' %'], ['waiting', 'robots wait', 0, ' %']];
-const REASONS = { failed: 'failed', cut: 'cut off when the server ended', cancelled: 'cancelled' };
+const FIGURES = [['pieces', tr`pieces an hour`, 0, ''], ['share', tr`of what stations can`, 0, ' %'], ['late', tr`orders late`, 1, ' %'], ['waiting', tr`robots wait`, 0, ' %']];
+const REASONS = { failed: tr`failed`, cut: tr`cut off when the server ended`, cancelled: tr`cancelled` };
 
 export class Card {
   /** `act`: {run, cancel, change, duplicate, rename, remove, pick}, each called with the name. */
@@ -19,17 +20,17 @@ export class Card {
     this.badge = make('span', { className: 'badge' });
     this.about = make('p', { className: 'dim about' });
     this.figures = make('div', { className: 'figures' });
-    this.bar = make('progress', { max: 1, ariaLabel: `Progress of ${name}` });
+    this.bar = make('progress', { max: 1, ariaLabel: tr`Progress of ${name}` });
     this.left = make('span', { className: 'dim number' });
     this.progress = make('div', { className: 'progress' }, this.bar, this.left);
     this.trouble = make('p', { className: 'answer' });
     this.trouble.dataset.kind = 'refused';
     this.buttons = {
-      run: button('Run', 'run', 'strong'), cancel: button('Cancel', 'cancel'), change: button('Change', 'change'),
-      duplicate: button('Duplicate', 'duplicate'), rename: button('Rename', 'rename'), remove: button('Delete', 'remove'),
+      run: button(tr`Run`, 'run', 'strong'), cancel: button(tr`Cancel`, 'cancel'), change: button(tr`Change`, 'change'),
+      duplicate: button(tr`Duplicate`, 'duplicate'), rename: button(tr`Rename`, 'rename'), remove: button(tr`Delete`, 'remove'),
     };
     this.runs = make('ul', { className: 'runs' });
-    this.details = make('details', {}, make('summary', { textContent: 'Runs and reports' }), this.runs);
+    this.details = make('details', {}, make('summary', { textContent: tr`Runs and reports` }), this.runs);
     this.element = make('li', { className: 'card scenario' },
       make('div', { className: 'card-head' }, make('label', { className: 'pick' }, this.pick, make('h3', { textContent: name })), this.badge),
       this.about, this.figures, this.progress, this.trouble,
@@ -40,7 +41,7 @@ export class Card {
   update(scenario, isPicked) {
     this.pick.checked = isPicked;
     this.element.classList.toggle('picked', isPicked);
-    this.pick.title = 'Compare';
+    this.pick.title = tr`Compare`;
     const text = JSON.stringify(scenario);
     if (text === this.shown) return;
     this.shown = text;
@@ -54,7 +55,7 @@ export class Card {
     this.showRuns(scenario);
     const runs = scenario.state === 'runs', isWhole = scenario.state === 'done';
     this.buttons.run.hidden = runs || isWhole || scenario.state === 'wrong';
-    this.buttons.run.textContent = scenario.state === 'none' ? 'Run' : 'Run what is missing';
+    this.buttons.run.textContent = scenario.state === 'none' ? tr`Run` : tr`Run what is missing`;
     this.buttons.cancel.hidden = !runs;
     this.buttons.change.hidden = this.buttons.duplicate.hidden = scenario.state === 'wrong';
     this.buttons.change.disabled = this.buttons.rename.disabled = runs;
@@ -65,7 +66,7 @@ export class Card {
     if (!summary) return;
     this.figures.replaceChildren(...FIGURES.map(([key, words, digits, unit]) => (
       make('div', {}, make('b', { className: 'number', textContent: interval(summary.figures[key], digits) + unit }), make('span', { className: 'dim', textContent: words })))),
-    make('div', { className: 'limit' }, make('span', { className: 'dim', textContent: `limited by ${limitOf(summary.limit)}` })));
+    make('div', { className: 'limit' }, make('span', { className: 'dim', textContent: tr`limited by ${limitOf(summary.limit)}` })));
   }
 
   showProgress({ state, runs, left }) {
@@ -74,20 +75,20 @@ export class Card {
     this.bar.hidden = state !== 'runs';
     const done = runs.filter((run) => run.state === 'done').length;
     this.bar.value = runs.reduce((sum, run) => sum + (run.state === 'done' ? 1 : run.share ?? 0), 0) / Math.max(runs.length, 1);
-    this.left.textContent = state === 'runs' ? `${done} of ${plural(runs.length, 'run')}, about ${duration(left)} of computing left`
-      : `takes about ${duration(left)} of computing`;
+    this.left.textContent = state === 'runs' ? tr`${done} of ${runsOf(runs.length)}, about ${duration(left)} of computing left`
+      : tr`takes about ${duration(left)} of computing`;
   }
 
   showTrouble({ error, runs }) {
     const failed = runs.find((run) => run.state === 'failed');
-    const faults = runs.flatMap((run) => (run.faults ?? []).map((fault) => `seed ${run.seed}: ${fault}`));
-    this.trouble.textContent = error ?? (failed ? `Seed ${failed.seed}: ${failed.text}` : faults.join('; '));
+    const faults = runs.flatMap((run) => (run.faults ?? []).map((fault) => tr`seed ${run.seed}: ${fault}`));
+    this.trouble.textContent = error ?? (failed ? tr`Seed ${failed.seed}: ${failed.text}` : faults.join('; '));
     this.trouble.hidden = !this.trouble.textContent;
   }
 
   showRuns({ name, runs }) {
     this.details.hidden = runs.every((run) => run.state === 'none');
-    this.runs.replaceChildren(...runs.map((run) => make('li', {}, `Seed ${run.seed}: `, ...reportOf(name, run))));
+    this.runs.replaceChildren(...runs.map((run) => make('li', {}, tr`Seed ${run.seed}: `, ...reportOf(name, run))));
   }
 }
 
@@ -96,5 +97,5 @@ function reportOf(name, run) {
     return [make('a', { href: `${ROOT}/whatif${pathOf(name, `/seeds/${run.seed}/report.html`)}`, target: '_blank', rel: 'noopener', textContent: 'report' })];
   }
   if (run.state === 'runs') return [`${Math.floor(100 * run.share)} %`];
-  return [REASONS[run.state] ?? (run.state === 'waits' ? 'waits' : 'not run yet')];
+  return [REASONS[run.state] ?? (run.state === 'waits' ? tr`waits` : tr`not run yet`)];
 }

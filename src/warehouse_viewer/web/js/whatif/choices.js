@@ -2,15 +2,16 @@
 // What the fields of the page offer, and the settings that they say.
 
 import { $, make } from '../base/dom.js';
-import { DAYS, layoutOf, plural, ROLES } from './words.js';
+import { tr } from '../language/texts.js';
+import { DAYS, layoutOf, robotsOf, ROLES, stationsOf } from './words.js';
 
 export const option = (value, textContent = value) => make('option', { value, textContent });
 
 /** Fills a select with presets and files, keeping what is chosen. */
 export function fillLayouts(select, about, chosen = select.value) {
-  const presets = Object.entries(about.presets).map(([name, { robots, stations }]) => option(name, `${name}: ${plural(robots, 'robot')}, ${plural(stations, 'station')}`));
+  const presets = Object.entries(about.presets).map(([name, { robots, stations }]) => option(name, `${name}: ${robotsOf(robots)}, ${stationsOf(stations)}`));
   const files = about.layouts.map((name) => option(name, layoutOf(name)));
-  select.replaceChildren(group('Ready made', presets), ...(files.length ? [group('Your own', files)] : []));
+  select.replaceChildren(group(tr`Ready made`, presets), ...(files.length ? [group(tr`Your own`, files)] : []));
   choose(select, chosen);
 }
 
@@ -27,7 +28,7 @@ export function choose(select, value) {
 /** What a layout has itself, as the hint of an empty field. */
 export function hintCounts(about, layout, fields) {
   const preset = about.presets[layout];
-  for (const [field, what] of fields) field.placeholder = preset ? `all ${preset[what]}`.replace('all', what === 'robots' ? 'its' : 'all') : 'as drawn';
+  for (const [field, what] of fields) field.placeholder = !preset ? tr`as drawn` : what === 'robots' ? tr`its ${preset[what]}` : tr`all ${preset[what]}`;
 }
 
 export function fillDays(select) {
@@ -37,7 +38,7 @@ export function fillDays(select) {
 export function fillPolicies(box, about) {
   box.replaceChildren(...Object.entries(about.policies).map(([role, names]) => {
     const usual = about.default_policies[role];
-    const select = make('select', { id: `policy-${role}` }, option('', `${usual} (usual)`), ...names.filter((name) => name !== usual).map((name) => option(name)));
+    const select = make('select', { id: `policy-${role}` }, option('', tr`${usual} (usual)`), ...names.filter((name) => name !== usual).map((name) => option(name)));
     return make('label', {}, `${ROLES[role] ?? role} `, select);
   }));
 }

@@ -3,10 +3,12 @@
 
 import { $, make, on } from '../base/dom.js';
 import { ROOT } from '../base/root.js';
+import { tr } from '../language/texts.js';
 import { queryOf } from './server.js';
 import { chartOf, draw, unitOf } from './whiskers.js';
-import { differences, interval, limitOf, number, plural } from './words.js';
+import { differences, interval, limitOf, number, runsOf } from './words.js';
 
+const VERDICTS = { better: tr`better`, worse: tr`worse`, different: tr`different`, 'too few runs': tr`too few runs` };
 const SIGNS = { better: '▲', worse: '▼', different: '◆' };
 
 export class Comparison {
@@ -29,7 +31,7 @@ export class Comparison {
   show(figures, scenarios, defaults) {
     Object.assign(this, { figures, scenarios });
     const left = scenarios.filter(({ state }) => state !== 'done').map(({ name }) => name);
-    $('side-told').textContent = left.length ? `Of ${left.join(', ')} not all runs are over; figures are of those that are.` : '';
+    $('side-told').textContent = left.length ? tr`Of ${left.join(', ')} not all runs are over; figures are of those that are.` : '';
     $('compared').hidden = $('report').hidden = false;
     $('report').href = `${ROOT}/whatif/report.html?${queryOf(figures.names)}`;
     this.fillFigures();
@@ -58,26 +60,26 @@ export class Comparison {
     const differs = differences(this.scenarios, defaults)
       .map(([what, texts]) => make('tr', {}, rowHead(what), ...texts.map((text) => make('td', { textContent: text }))));
     const figures = rows.map((row) => make('tr', {}, rowHead(row.title, row.unit), ...row.cells.map((cell, i) => cellOf(row, cell, i))));
-    const limit = make('tr', {}, rowHead('What limits it'), ...this.figures.limits.map((cause) => make('td', { textContent: limitOf(cause) })));
+    const limit = make('tr', {}, rowHead(tr`What limits it`), ...this.figures.limits.map((cause) => make('td', { textContent: limitOf(cause) })));
     $('table').replaceChildren(make('thead', {}, head),
-      make('tbody', {}, title('What differs', names.length), ...(differs.length ? differs : [nothing(names.length)])),
-      make('tbody', {}, title('What came of it', names.length), ...figures, limit));
+      make('tbody', {}, title(tr`What differs`, names.length), ...(differs.length ? differs : [nothing(names.length)])),
+      make('tbody', {}, title(tr`What came of it`, names.length), ...figures, limit));
   }
 
   header(name, i) {
-    const what = i ? make('button', { className: 'text-button', textContent: 'compare with this', ariaLabel: `compare with ${name}`, click: () => this.choose(name) })
-      : make('span', { className: 'dim', textContent: 'compared with' });
+    const what = i ? make('button', { className: 'text-button', textContent: tr`compare with this`, ariaLabel: tr`compare with ${name}`, click: () => this.choose(name) })
+      : make('span', { className: 'dim', textContent: tr`compared with` });
     return make('th', { scope: 'col' }, make('span', { className: 'column', textContent: name }), what);
   }
 
   showNotes() {
     const { warm_up: warmUp, rows } = this.figures;
     const counts = [...new Set(rows[0].cells.map(({ count }) => count))];
-    const few = Math.min(...counts) < 3 ? ' Fewer than three runs have no interval and say nothing about chance: give each scenario three repetitions or more.' : '';
+    const few = Math.min(...counts) < 3 ? tr` Fewer than three runs have no interval and say nothing about chance: give each scenario three repetitions or more.` : '';
     const after = rows.filter(({ note }) => note !== 'the whole shift').map(({ title: text }) => text.toLowerCase()).join('; ');
-    $('notes').textContent = `Means of ${counts.map((n) => plural(n, 'run')).join(' and ')} with 95 % confidence intervals. Better and worse than ${this.figures.names[0]}: the difference seed by seed is above chance`
-      + ` (p < 0.05, corrected for all differences in the table; its interval is, too).${few}`
-      + ` After a warm-up of ${number(warmUp)} min, the same for all: ${after}. The others: of the whole shift.`;
+    $('notes').textContent = tr`Means of ${counts.map(runsOf).join(tr` and `)} with 95 % confidence intervals. Better and worse than ${this.figures.names[0]}: the difference seed by seed is above chance`
+      + tr` (p < 0.05, corrected for all differences in the table; its interval is, too).${few}`
+      + tr` After a warm-up of ${number(warmUp)} min, the same for all: ${after}. The others: of the whole shift.`;
   }
 }
 
@@ -86,7 +88,7 @@ function rowHead(text, unit = '') {
 }
 
 const title = (text, columns) => make('tr', { className: 'part' }, make('th', { colSpan: columns + 1, scope: 'colgroup', textContent: text }));
-const nothing = (columns) => make('tr', {}, make('td', { colSpan: columns + 1, className: 'dim', textContent: 'nothing: they are the same' }));
+const nothing = (columns) => make('tr', {}, make('td', { colSpan: columns + 1, className: 'dim', textContent: tr`nothing: they are the same` }));
 
 function cellOf({ digits, plain }, cell, i) {
   const out = make('td', {}, make('span', { className: 'mean', textContent: interval(cell, digits) }), ' ');
@@ -94,6 +96,6 @@ function cellOf({ digits, plain }, cell, i) {
   const verdict = cell.verdict ?? 'too few runs';
   const sign = SIGNS[verdict] ? `${SIGNS[verdict]} ` : '';
   const relative = SIGNS[verdict] && cell.relative !== null ? ` ${cell.relative > 0 ? '+' : ''}${number(100 * cell.relative, 1)} %` : '';
-  out.append(make('span', { className: `verdict ${verdict.split(' ')[0]}`, textContent: `${sign}${verdict}${relative}` }));
+  out.append(make('span', { className: `verdict ${verdict.split(' ')[0]}`, textContent: `${sign}${VERDICTS[verdict] ?? verdict}${relative}` }));
   return out;
 }

@@ -3,11 +3,12 @@
 
 import { make } from '../base/dom.js';
 import { ROOT } from '../base/root.js';
+import { tr } from '../language/texts.js';
 import { describeDesign } from './design_words.js';
 import { BADGES, duration, interval, layoutOf, number } from './words.js';
 
-const HEADS = ['Layout', 'To buy', 'A piece', 'On days not seen', 'Late', 'Robots', 'Stations', 'Units'];
-const BADGE = { ...BADGES, waits: ['resting', 'waits'], cut: ['waiting', 'cut off'] };
+const HEADS = [tr`Layout`, tr`To buy`, tr`A piece`, tr`On days not seen`, tr`Late`, tr`Robots`, tr`Stations`, tr`Units`];
+const BADGE = { ...BADGES, waits: ['resting', tr`waits`], cut: ['waiting', tr`cut off`] };
 
 export const pathOfDesign = (name, rest = '') => `/designs/${encodeURIComponent(name)}${rest}`;
 
@@ -18,16 +19,16 @@ export class DesignCard {
     const button = (text, what, className = 'edged') => make('button', { textContent: text, className, click: () => act[what](name), ariaLabel: `${text} ${name}` });
     this.badge = make('span', { className: 'badge' });
     this.about = make('p', { className: 'dim about' });
-    this.bar = make('progress', { max: 1, ariaLabel: `Progress of ${name}` });
+    this.bar = make('progress', { max: 1, ariaLabel: tr`Progress of ${name}` });
     this.left = make('span', { className: 'dim number' });
     this.progress = make('div', { className: 'progress' }, this.bar, this.left);
     this.trouble = make('p', { className: 'answer' });
     this.trouble.dataset.kind = 'refused';
     this.answer = make('p', { className: 'found' });
-    this.front = make('div', { className: 'front', role: 'region', ariaLabel: `Layouts that ${name} found`, tabIndex: 0 });
+    this.front = make('div', { className: 'front', role: 'region', ariaLabel: tr`Layouts that ${name} found`, tabIndex: 0 });
     this.plans = make('div', { className: 'plans' });
-    this.report = make('a', { className: 'button edged', href: `${ROOT}/whatif${pathOfDesign(name, '/report.html')}`, target: '_blank', rel: 'noopener', textContent: 'Report', ariaLabel: `Report ${name}` });
-    this.buttons = { run: button('Go on', 'run', 'strong'), cancel: button('Cancel', 'cancel'), again: button('Another like it', 'again'), remove: button('Delete', 'remove') };
+    this.report = make('a', { className: 'button edged', href: `${ROOT}/whatif${pathOfDesign(name, '/report.html')}`, target: '_blank', rel: 'noopener', textContent: tr`Report`, ariaLabel: tr`Report ${name}` });
+    this.buttons = { run: button(tr`Go on`, 'run', 'strong'), cancel: button(tr`Cancel`, 'cancel'), again: button(tr`Another like it`, 'again'), remove: button(tr`Delete`, 'remove') };
     this.element = make('li', { className: 'card scenario' },
       make('div', { className: 'card-head' }, make('h3', { textContent: name }), this.badge),
       this.about, this.progress, this.trouble, this.answer, this.front, this.plans,
@@ -52,7 +53,7 @@ export class DesignCard {
     this.showFront(front);
     const isBusy = state === 'runs' || state === 'waits';
     this.buttons.run.hidden = isBusy || state === 'done' || state === 'wrong';
-    this.buttons.run.textContent = state === 'none' ? 'Run' : 'Go on';
+    this.buttons.run.textContent = state === 'none' ? tr`Run` : tr`Go on`;
     this.buttons.cancel.hidden = !isBusy;
     this.buttons.again.hidden = state === 'wrong';
   }
@@ -61,8 +62,8 @@ export class DesignCard {
     this.progress.hidden = state === 'done' || state === 'wrong';
     this.bar.hidden = state !== 'runs';
     this.bar.value = share;
-    const begins = stage || 'begins';
-    this.left.textContent = state === 'runs' ? `${begins}, about ${duration(left)} left` : `takes about ${duration(left)}`;
+    const begins = stage || tr`begins`;
+    this.left.textContent = state === 'runs' ? tr`${begins}, about ${duration(left)} left` : tr`takes about ${duration(left)}`;
   }
 
   showFront(front) {
@@ -80,12 +81,12 @@ export class DesignCard {
   }
 
   plan(layout) {
-    const name = layoutOf(layout), of = (text) => `${text} ${name} of ${this.name}`;
+    const name = layoutOf(layout), of = (text) => `${text} ${name}, ${this.name}`;
     const file = pathOfDesign(this.name, `/layouts/${encodeURIComponent(layout)}`);
     const edit = `${ROOT}/layout?design=${encodeURIComponent(this.name)}&layout=${encodeURIComponent(layout)}`;
-    return make('figure', {}, make('img', { src: `${ROOT}/whatif${file}/plan.svg`, alt: of('Plan of'), loading: 'lazy' }),
-      make('figcaption', {}, `${name} `, make('a', { href: edit, textContent: 'edit', ariaLabel: of('edit') }), ' ',
-        make('a', { href: `${ROOT}/whatif${file}`, download: layout, textContent: 'file', ariaLabel: of('download') }), ' ',
-        make('button', { className: 'text-button', textContent: 'as a scenario', ariaLabel: of('make a scenario of'), click: () => this.act.use(this.name, layout) })));
+    return make('figure', {}, make('img', { src: `${ROOT}/whatif${file}/plan.svg`, alt: of(tr`Plan of`), loading: 'lazy' }),
+      make('figcaption', {}, `${name} `, make('a', { href: edit, textContent: tr`edit`, ariaLabel: of('edit') }), ' ',
+        make('a', { href: `${ROOT}/whatif${file}`, download: layout, textContent: tr`file`, ariaLabel: of('download') }), ' ',
+        make('button', { className: 'text-button', textContent: tr`as a scenario`, ariaLabel: of(tr`make a scenario of`), click: () => this.act.use(this.name, layout) })));
   }
 }

@@ -3,6 +3,7 @@
 // the field that it is about.
 
 import { $, make, on } from '../base/dom.js';
+import { tr } from '../language/texts.js';
 import { choose, fillLayouts, freeName, option } from './choices.js';
 import { demandOf, demandText, EDGES, edgesOf } from './design_words.js';
 import { ask } from './server.js';
@@ -58,7 +59,7 @@ export class DesignForm {
 
   fillBuildings(chosen = $('design-building').value) {
     fillLayouts($('design-building'), this.about, '');
-    $('design-building').prepend(option('', 'an empty hall'));
+    $('design-building').prepend(option('', tr`an empty hall`));
     $('design-building').value = '';
     choose($('design-building'), chosen);
   }
@@ -92,7 +93,7 @@ export class DesignForm {
 
   changed() {
     $('design-edges-label').hidden = $('design-building').value !== '';
-    $('design-costs').value = this.about.costs ? 'those of costs.yaml' : 'none yet';
+    $('design-costs').value = this.about.costs ? tr`those of costs.yaml` : tr`none yet`;
     if ($('design-name').value === this.alike) $('design-name').value = this.alike = this.stem();
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.estimate(), PAUSE);
@@ -104,7 +105,7 @@ export class DesignForm {
     const turn = this.asked;
     try {
       const { seconds, processes } = await ask('POST', '/designs/estimate', { settings: this.settings() });
-      if (turn === this.asked) this.refuse('', `It takes about ${duration(seconds / processes)} here${this.settings().physics_hours ? ', and its last layouts some minutes with physics' : ''}.`, '');
+      if (turn === this.asked) this.refuse('', tr`It takes about ${duration(seconds / processes)} here${this.settings().physics_hours ? tr`, and its last layouts some minutes with physics` : ''}.`, '');
     } catch (error) {
       if (turn === this.asked) this.refuse(error.field, error.message);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a search for a layout is about, in words and as the server takes it.
 
+import { tr } from '../language/texts.js';
 import { layoutOf, number } from './words.js';
 
 export const EDGES = /^\d+x\d+$/;
@@ -21,5 +22,5 @@ export function edgesOf(text) {
 
 /** What a search is about, in a line. */
 export function describeDesign({ building, demand, late, cpu_hours: hours, seed }) {
-  return [layoutOf(building), demand.replace('*', ' × '), `${number(100 * late, 2).replace(/\.?0+$/, '')} % may be late`, `${hours} CPU h`, `seed ${seed}`].join(' · ');
+  return [layoutOf(building), demand.replace('*', ' × '), tr`${number(100 * late, 2).replace(/\.?0+$/, '')} % may be late`, tr`${hours} CPU h`, tr`seed ${seed}`].join(' · ');
 }

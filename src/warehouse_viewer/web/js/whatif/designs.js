@@ -4,6 +4,7 @@
 import { $, on } from '../base/dom.js';
 import { confirmed } from '../base/question.js';
 import { ROOT } from '../base/root.js';
+import { tr } from '../language/texts.js';
 import { DesignCard, pathOfDesign } from './design_card.js';
 import { DesignForm } from './design_form.js';
 import { ask } from './server.js';
@@ -59,7 +60,7 @@ export class Designs {
   }
 
   async remove(name) {
-    if (!await confirmed(`Delete ${name}?`, 'What it found, and its shifts, are deleted with it.', 'Delete', 'Keep it')) return;
+    if (!await confirmed(tr`Delete ${name}?`, tr`What it found, and its shifts, are deleted with it.`, tr`Delete`, tr`Keep it`)) return;
     await this.page.attempt(async () => {
       await ask('DELETE', pathOfDesign(name));
       await this.page.look();
@@ -69,7 +70,7 @@ export class Designs {
   /** Keeps a layout that was found among those of scenarios, and begins one with it. */
   async use(name, layout) {
     const answer = await fetch(`${ROOT}/whatif${pathOfDesign(name, `/layouts/${encodeURIComponent(layout)}`)}`);
-    if (!answer.ok) throw new Error('the layout is gone');
+    if (!answer.ok) throw new Error(tr`the layout is gone`);
     const file = `${name.replace(/[^\w.-]+/g, '_')}-${layout}`;
     const { name: kept } = await ask('POST', '/layouts', { name: file, text: await answer.text() });
     await this.page.takeFile('layouts', kept);

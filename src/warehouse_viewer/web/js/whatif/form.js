@@ -2,15 +2,16 @@
 // The dialog in which a scenario is made and changed.
 
 import { $, on } from '../base/dom.js';
+import { plural, tr } from '../language/texts.js';
 import { choose, fillDays, fillLayouts, fillPolicies, freeName, hintCounts, option, ordersText, partsOf, policiesOf, fitsOrders } from './choices.js';
 import { eventsOf, linesOf } from './events.js';
 import { ask } from './server.js';
-import { dayOf, duration, layoutOf, plural } from './words.js';
+import { dayOf, duration, layoutOf, robotsOf } from './words.js';
 
 const PAUSE = 350; // [ms] after a change, until the server is asked about it
 const count = (what) => $(`own-${what}`).valueAsNumber || 0;
 const KINDS = {
-  fill: 'never run out', mix: 'arrive at a rate', file: 'of a CSV file', day: 'a day as it was (CSV)', demand: 'days as described (.demand.yaml)',
+  fill: tr`never run out`, mix: tr`arrive at a rate`, file: tr`of a CSV file`, day: tr`a day as it was (CSV)`, demand: tr`days as described (.demand.yaml)`,
 };
 const OF_FILES = ['file', 'day', 'demand'];
 
@@ -36,7 +37,7 @@ export class Form {
   /** Opens the dialog: of a scenario that is there (`old`, its name), or of a new one. */
   open(settings, { old = '', taken = [], hasRuns = false } = {}) {
     Object.assign(this, { old, taken, hasRuns });
-    $('editor-title').textContent = old ? `Change ${old}` : 'New scenario';
+    $('editor-title').textContent = old ? tr`Change ${old}` : tr`New scenario`;
     $('own-name').value = old || freeName(layoutOf(settings.layout), taken);
     $('own-name').disabled = Boolean(old);
     this.take(settings);
@@ -100,8 +101,8 @@ export class Form {
     hintCounts(this.about, $('own-layout').value, [[$('own-robots'), 'robots'], [$('own-stations'), 'stations']]);
     const others = Object.keys(policiesOf(this.about)).length;
     const events = eventsOf($('own-events').value).length;
-    $('events-told').textContent = events ? plural(events, 'event') : 'none';
-    $('policies-told').textContent = others ? `${others} not as usual` : 'as usual';
+    $('events-told').textContent = events ? plural(events, '{n} event', '{n} events') : tr`none`;
+    $('policies-told').textContent = others ? tr`${others} not as usual` : tr`as usual`;
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.estimate(), PAUSE);
   }
@@ -112,8 +113,8 @@ export class Form {
     const turn = this.asked;
     try {
       const { seconds, robots, stations } = await ask('POST', '/estimate', { settings: this.settings() });
-      const lost = this.hasRuns ? ' Its runs are discarded where they are not of the scenario as it is then.' : '';
-      if (turn === this.asked) this.say(`${plural(robots, 'robot')}, ${plural(stations, 'picking station')}; it takes about ${duration(seconds)} here.${lost}`, '');
+      const lost = this.hasRuns ? tr` Its runs are discarded where they are not of the scenario as it is then.` : '';
+      if (turn === this.asked) this.say(tr`${robotsOf(robots)}, ${plural(stations, '{n} picking station', '{n} picking stations')}; it takes about ${duration(seconds)} here.${lost}`, '');
     } catch (error) {
       if (turn === this.asked) this.say(error.message, 'refused');
     }

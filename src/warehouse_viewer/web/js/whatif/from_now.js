@@ -3,19 +3,20 @@
 
 import { get, post } from '../base/api.js';
 import { $, make, on } from '../base/dom.js';
-import { number } from '../base/numbers.js';
+import { number } from '../language/numbers.js';
+import { tr } from '../language/texts.js';
 import { clock } from '../base/time.js';
 
 const PAUSE = 500; // between two looks for a forecast [ms]
 const MOST = 6; // forecasts side by side
 const AGAINST = 'against as it is: '; // begins what changes make, in a forecast's text
 const ROWS = [
-  ['Orders done', ({ done }) => rangeOf(done)],
-  ['Orders open then', ({ open }) => rangeOf(open)],
-  ['Orders late', ({ late }) => rangeOf(late)],
-  ['All orders of now done at', ({ finish }) => endOf(finish)],
-  ['The changes make', ({ text }) => differenceOf(text)],
-  ['Made at, runs', ({ made_at: at, runs }) => `${clock(at)}, ${number(runs)}`],
+  [tr`Orders done`, ({ done }) => rangeOf(done)],
+  [tr`Orders open then`, ({ open }) => rangeOf(open)],
+  [tr`Orders late`, ({ late }) => rangeOf(late)],
+  [tr`All orders of now done at`, ({ finish }) => endOf(finish)],
+  [tr`The changes make`, ({ text }) => differenceOf(text)],
+  [tr`Made at, runs`, ({ made_at: at, runs }) => `${clock(at)}, ${number(runs)}`],
 ];
 
 /** The changes that lines say; a line without a time happens at once. */
@@ -31,7 +32,7 @@ export function rangeOf({ p10, p50, p90 }) {
 
 /** When all orders are done; null: not within. */
 export function endOf({ p10, p50, p90 }) {
-  if (p50 === null) return 'not within';
+  if (p50 === null) return tr`not within`;
   return `${clock(p50)} (${clock(p10)}–${p90 === null ? 'later' : clock(p90)})`;
 }
 
@@ -51,7 +52,7 @@ export class FromNow {
   async lookAhead() {
     const changes = changesOf($('now-changes').value);
     $('now-go').disabled = true;
-    this.say('looks ahead for about 20 s …');
+    this.say(tr`looks ahead for about 20 s …`);
     try {
       const asked = await post('/forecasts', { minutes: Number($('now-minutes').value), changes });
       const forecast = await this.answer(asked.forecast_id);
@@ -68,7 +69,7 @@ export class FromNow {
   async answer(id) {
     for (;;) {
       const forecast = await get(`/forecasts/${id}`);
-      if (forecast.state === 'REPLACED') throw new Error('A newer forecast was asked for meanwhile; ask again.');
+      if (forecast.state === 'REPLACED') throw new Error(tr`A newer forecast was asked for meanwhile; ask again.`);
       if (forecast.state === 'DONE' && !forecast.runs) throw new Error(forecast.text);
       if (forecast.state === 'DONE') return forecast;
       await new Promise((done) => { setTimeout(done, PAUSE); });
@@ -82,7 +83,7 @@ export class FromNow {
   show(columns) {
     this.columns = columns;
     $('now-box').hidden = $('now-clear').hidden = !columns.length;
-    const head = columns.map(({ changes, minutes }) => make('th', { scope: 'col', textContent: `${changes.map((line) => line.replace(/^\+0 /, '')).join(', ') || 'as it is'}; ${number(minutes)} min` }));
+    const head = columns.map(({ changes, minutes }) => make('th', { scope: 'col', textContent: tr`${changes.map((line) => line.replace(/^\+0 /, '')).join(', ') || tr`as it is`}; ${number(minutes)} min` }));
     const rows = ROWS.map(([title, cell]) => make('tr', {},
       make('th', { scope: 'row', textContent: title }), ...columns.map((column) => make('td', { textContent: cell(column) }))));
     $('now-table').replaceChildren(make('thead', {}, make('tr', {}, make('td'), ...head)), make('tbody', {}, ...rows));

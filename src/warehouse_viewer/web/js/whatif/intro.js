@@ -2,6 +2,7 @@
 // Two layouts against each other, in one go: what a first visitor sees.
 
 import { $, on } from '../base/dom.js';
+import { tr } from '../language/texts.js';
 import { fillLayouts, freeName, hintCounts } from './choices.js';
 import { ask } from './server.js';
 import { duration, layoutOf } from './words.js';
@@ -47,7 +48,7 @@ export class Intro {
     const both = SIDES.map((side) => this.settings(side));
     const isSame = both[0].layout === both[1].layout;
     return both.map((settings) => [
-      layoutOf(settings.layout) + (isSame && settings.robots ? ` ${settings.robots} robots` : ''), settings]);
+      layoutOf(settings.layout) + (isSame && settings.robots ? tr` ${settings.robots} robots` : ''), settings]);
   }
 
   changed() {
@@ -59,7 +60,7 @@ export class Intro {
   async estimate() {
     try {
       const each = await Promise.all(SIDES.map((side) => ask('POST', '/estimate', { settings: this.settings(side) })));
-      $('intro-time').textContent = `takes about ${duration(each.reduce((sum, { seconds }) => sum + seconds, 0))} here`;
+      $('intro-time').textContent = tr`takes about ${duration(each.reduce((sum, { seconds }) => sum + seconds, 0))} here`;
     } catch (error) {
       $('intro-time').textContent = error.message;
     }

@@ -4,6 +4,7 @@
 import { reloadIfLockedOut } from '../base/api.js';
 import { $, make, on } from '../base/dom.js';
 import { ask as asked, confirmed } from '../base/question.js';
+import { tr } from '../language/texts.js';
 import { Notice } from './notice.js';
 import { Card } from './card.js';
 import { Comparison } from './comparison.js';
@@ -13,7 +14,7 @@ import { FromNow } from './from_now.js';
 import { Intro, named } from './intro.js';
 import { Picks } from './picks.js';
 import { ask, pathOf, queryOf } from './server.js';
-import { duration, plural } from './words.js';
+import { duration, runsOf } from './words.js';
 
 const SOON = 1000, LATER = 5000; // interval between requests for scenarios, while some run and else [ms]
 const MOST_FILE = 5e6; // [bytes]
@@ -31,7 +32,7 @@ class Page {
     this.designs = new Designs(this);
     this.fromNow = new FromNow();
     this.actions = this.makeActions();
-    $('folder').textContent = `Kept in ${about.folder}`;
+    $('folder').textContent = tr`Kept in ${about.folder}`;
     $('draw-one').hidden = false;
     on($('new'), 'click', () => this.form.open(about.defaults, { taken: this.names }));
     this.showCosts();
@@ -63,7 +64,7 @@ class Page {
       rename: (name) => this.rename(name),
       remove: (name) => this.remove(name),
       pick: (name) => {
-        if (!this.picks.toggle(name)) this.notice.say(`${this.about.most.compared} scenarios are compared at most; take one away first.`);
+        if (!this.picks.toggle(name)) this.notice.say(tr`${this.about.most.compared} scenarios are compared at most; take one away first.`);
         this.showPicks();
       },
     };
@@ -89,7 +90,7 @@ class Page {
   show({ scenarios, designs, running, waiting, left }) {
     this.scenarios = scenarios;
     this.designs.show(designs);
-    const text = running + waiting ? `${plural(running, 'run')} under way, ${waiting} waiting, about ${duration(left)} left` : 'nothing runs';
+    const text = running + waiting ? tr`${runsOf(running)} under way, ${waiting} waiting, about ${duration(left)} left` : tr`nothing runs`;
     this.showLink(running ? 'live' : 'idle', text);
     this.picks.keep(this.names);
     this.showCards();
@@ -136,8 +137,8 @@ class Page {
   async compare() {
     const chosen = this.picks.names.map((name) => this.scenarios.find((scenario) => scenario.name === name)).filter(Boolean);
     const bare = chosen.filter(({ summary }) => !summary);
-    if (chosen.length < 2) this.comparison.clear('Tick two to six scenarios to see them side by side.');
-    else if (bare.length) this.comparison.clear(`${bare.map(({ name }) => name).join(', ')}: no run is over yet.`);
+    if (chosen.length < 2) this.comparison.clear(tr`Tick two to six scenarios to see them side by side.`);
+    else if (bare.length) this.comparison.clear(tr`${bare.map(({ name }) => name).join(', ')}: no run is over yet.`);
     else await this.fetchComparison(chosen);
   }
 
@@ -207,8 +208,8 @@ class Page {
   async remove(name) {
     const { runs } = this.scenarios.find((scenario) => scenario.name === name);
     const done = runs.filter(({ state }) => state === 'done').length;
-    const text = done ? `Its ${plural(done, 'run')} with their reports are deleted with it.` : 'It has no runs yet.';
-    if (!await confirmed(`Delete ${name}?`, text, 'Delete', 'Keep it')) return;
+    const text = done ? tr`Its ${runsOf(done)} with their reports are deleted with it.` : tr`It has no runs yet.`;
+    if (!await confirmed(tr`Delete ${name}?`, text, tr`Delete`, tr`Keep it`)) return;
     await this.attempt(async () => {
       await ask('DELETE', pathOf(name));
       await this.look();
@@ -228,7 +229,7 @@ class Page {
   async upload(files) {
     try {
       for (const file of [...files].sort((a, b) => a.name.endsWith('.yaml') - b.name.endsWith('.yaml'))) {
-        if (file.size > MOST_FILE) throw new Error(`${file.name}: a file of up to 5 MB was expected`);
+        if (file.size > MOST_FILE) throw new Error(tr`${file.name}: a file of up to 5 MB was expected`);
         const isStock = this.kind === 'layouts' && file.name.endsWith('.csv');
         const { name } = await ask('POST', isStock ? '/stock' : `/${this.kind}`, { name: file.name, text: await file.text() });
         if (this.kind === 'costs') await this.takeCosts();
@@ -252,7 +253,7 @@ class Page {
   }
 
   showCosts() {
-    $('costs-told').textContent = this.about.costs ? 'Costs: those of costs.yaml. ' : 'What does each cost? ';
+    $('costs-told').textContent = this.about.costs ? tr`Costs: those of costs.yaml. ` : tr`What does each cost? `;
     $('costs-drop').hidden = !this.about.costs;
   }
 

@@ -1,35 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenarios and figures in words.
 
-import { number } from '../base/numbers.js';
+import { number } from '../language/numbers.js';
+import { plural, tr } from '../language/texts.js';
 import { linesOf } from './events.js';
 
 export const DAYS = {
-  '': 'ideal, meeting no traffic: quickest',
-  ideal: 'simulated, on an ideal day',
-  typical: 'simulated, on a typical day',
-  bad_day: 'simulated, on a bad day',
+  '': tr`ideal, meeting no traffic: quickest`,
+  ideal: tr`simulated, on an ideal day`,
+  typical: tr`simulated, on a typical day`,
+  bad_day: tr`simulated, on a bad day`,
 };
-const DAYS_SHORT = { '': 'ideal robots', ideal: 'simulated, ideal day', typical: 'simulated, typical day', bad_day: 'simulated, bad day' };
+const DAYS_SHORT = { '': tr`ideal robots`, ideal: tr`simulated, ideal day`, typical: tr`simulated, typical day`, bad_day: tr`simulated, bad day` };
 export const ROLES = {
-  orders: 'Which order a station takes on',
-  units: 'Which unit is brought',
-  storage: 'Where a unit is put afterwards',
-  bins: 'Where new stock goes',
-  replenishment: 'When stock is refilled',
-  robots: 'Which robot does a transport',
-  idle: 'Where idle robots wait',
-  charging: 'When robots charge',
+  orders: tr`Which order a station takes on`,
+  units: tr`Which unit is brought`,
+  storage: tr`Where a unit is put afterwards`,
+  bins: tr`Where new stock goes`,
+  replenishment: tr`When stock is refilled`,
+  robots: tr`Which robot does a transport`,
+  idle: tr`Where idle robots wait`,
+  charging: tr`When robots charge`,
 };
 export const BADGES = {
-  none: ['resting', 'not run yet'],
-  part: ['resting', 'not all runs'],
-  runs: ['moving', 'runs'],
-  done: ['working', 'done'],
-  cancelled: ['resting', 'cancelled'],
-  cut: ['waiting', 'cut off'],
-  failed: ['needs-help', 'failed'],
-  wrong: ['needs-help', 'can’t be read'],
+  none: ['resting', tr`not run yet`],
+  part: ['resting', tr`not all runs`],
+  runs: ['moving', tr`runs`],
+  done: ['working', tr`done`],
+  cancelled: ['resting', tr`cancelled`],
+  cut: ['waiting', tr`cut off`],
+  failed: ['needs-help', tr`failed`],
+  wrong: ['needs-help', tr`can’t be read`],
 };
 
 export { number };
@@ -46,51 +47,51 @@ export function interval({ mean, half }, digits = 0) {
 export function duration(seconds) {
   if (seconds < 50) return `${Math.max(5 * Math.ceil(seconds / 5), 5)} s`;
   const minutes = Math.ceil(seconds / 60);
-  return minutes < 60 ? `${minutes} min` : `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
+  return minutes < 60 ? tr`${minutes} min` : tr`${Math.floor(minutes / 60)} h ${minutes % 60} min`;
 }
 
-export function plural(count, noun) {
-  return `${number(count)} ${noun}${count === 1 ? '' : 's'}`;
-}
+export const robotsOf = (count) => plural(count, '{n} robot', '{n} robots');
+export const stationsOf = (count) => plural(count, '{n} station', '{n} stations');
+export const runsOf = (count) => plural(count, '{n} run', '{n} runs');
 
 export const layoutOf = (layout) => layout.replace(/\.layout\.yaml$/, '');
 
 export function ordersOf(orders) {
   const [kind, rate, size] = orders.split(':');
-  if (kind === 'fill') return 'orders never run out';
-  if (kind === 'poisson') return rate ? `${number(Number(rate))} orders an hour` : 'orders by chance';
-  if (kind === 'mix') return `${number(Number(rate))} orders an hour${size === '1.55x1.05' ? '' : ` of ${size.replace('x', ' lines × ')} pieces`}`;
+  if (kind === 'fill') return tr`orders never run out`;
+  if (kind === 'poisson') return rate ? tr`${number(Number(rate))} orders an hour` : tr`orders by chance`;
+  if (kind === 'mix') return tr`${number(Number(rate))} orders an hour${size === '1.55x1.05' ? '' : tr` of ${size.replace('x', tr` lines × `)} pieces`}`;
   if (kind === 'day' || kind === 'demand') {
     const [file, times] = rate.split('*');
-    const more = times ? `, × ${times}` : '';
-    return kind === 'day' ? `the day of ${file}${more}` : `days as ${file.replace(/\.demand\.yaml$/, '')}${more}`;
+    const more = times ? tr`, × ${times}` : '';
+    return kind === 'day' ? tr`the day of ${file}${more}` : tr`days as ${file.replace(/\.demand\.yaml$/, '')}${more}`;
   }
-  return `orders of ${orders}`;
+  return tr`orders of ${orders}`;
 }
 
-const eventsInWords = (events = []) => (events.length ? plural(events.length, 'event') : 'none');
+const eventsInWords = (events = []) => (events.length ? plural(events.length, '{n} event', '{n} events') : tr`none`);
 
 export const dayOf = ({ physics, realism }) => (physics ? realism || 'ideal' : '');
 
 /** What a scenario is, in a line. */
 export function describe(settings, site) {
   const policies = Object.entries(settings.policies).map(([role, name]) => `${role}: ${name}`);
-  return [layoutOf(settings.layout), plural(site.robots, 'robot'), plural(site.stations, 'station'), ordersOf(settings.orders),
-    `${settings.minutes} min × ${settings.seeds}`, DAYS_SHORT[dayOf(settings)], ...policies,
+  return [layoutOf(settings.layout), robotsOf(site.robots), stationsOf(site.stations), ordersOf(settings.orders),
+    tr`${settings.minutes} min × ${settings.seeds}`, DAYS_SHORT[dayOf(settings)], ...policies,
     ...(settings.events?.length ? [eventsInWords(settings.events)] : [])].join(' · ');
 }
 
 /** [what, a text for each scenario] of what is not the same in all. */
 export function differences(scenarios, defaults) {
   const texts = {
-    Layout: ({ settings }) => layoutOf(settings.layout),
-    Robots: ({ site }) => number(site.robots),
-    'Picking stations': ({ site }) => number(site.stations),
-    Orders: ({ settings }) => ordersOf(settings.orders),
-    'Minutes of work': ({ settings }) => number(settings.minutes),
-    Repetitions: ({ settings }) => number(settings.seeds),
-    'Robots are': ({ settings }) => DAYS_SHORT[dayOf(settings)],
-    Events: ({ settings }) => linesOf(settings.events).join('; ') || 'none',
+    [tr`Layout`]: ({ settings }) => layoutOf(settings.layout),
+    [tr`Robots`]: ({ site }) => number(site.robots),
+    [tr`Picking stations`]: ({ site }) => number(site.stations),
+    [tr`Orders`]: ({ settings }) => ordersOf(settings.orders),
+    [tr`Minutes of work`]: ({ settings }) => number(settings.minutes),
+    [tr`Repetitions`]: ({ settings }) => number(settings.seeds),
+    [tr`Robots are`]: ({ settings }) => DAYS_SHORT[dayOf(settings)],
+    [tr`Events`]: ({ settings }) => linesOf(settings.events).join('; ') || tr`none`,
   };
   for (const [role, name] of Object.entries(ROLES)) texts[name] = ({ settings }) => settings.policies[role] ?? defaults[role];
   return Object.entries(texts).map(([what, textOf]) => [what, scenarios.map(textOf)])

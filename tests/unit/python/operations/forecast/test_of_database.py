@@ -90,6 +90,14 @@ def test_what_can_not_be_is_refused_in_a_sentence(kept, options, text):
     assert text in str(error.value) and "\n" not in str(error.value)
 
 
+def test_a_folder_that_can_not_be_written_to_is_refused_before_a_run(kept, tmp_path, monkeypatch):
+    prepared = program.prepare(arguments(kept[0]), Request(1, 1))
+    monkeypatch.setattr(program, "Runs", lambda *_, **__: pytest.fail("a run was begun"))
+    (tmp_path / "file").write_text("")
+    with pytest.raises(ForecastError, match="out is .*/file: File exists"):
+        program.answer(prepared, Request(1, 1), 1, tmp_path / "file")
+
+
 def test_other_files_are_refused_and_left_alone(kept, tmp_path):
     with pytest.raises(DatabaseError, match="there is no such file"):
         moment.read(str(tmp_path / "none.db"))

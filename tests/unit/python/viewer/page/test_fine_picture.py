@@ -76,6 +76,35 @@ def test_a_card_draws_shadows_rings_walls_and_fog_and_takes_them_away(page):
     assert page.complaints() == []
 
 
+# How many corners the geometry of units near by has, and of robots; and how many shades boxes have.
+CORNERS = """[page.actors.units, page.actors.robots.crowd].map((crowd) => crowd.layers.find(
+  ({ levels, place, order }) => levels === 2 && !place && order === 0,
+).geometry.attributes.position.count)"""
+SHADES = """new Set(page.world.scene.items.map((_, i) => (
+  page.actors.items.tint.slice(4 * i, 4 * i + 3).join()))).size"""
+
+
+def test_a_card_draws_racks_with_beams_bevelled_robots_and_boxes_of_many_shades(page):
+    page.until("page.fine?.isOn")
+    assert page.read(SHADES) == 8
+    racks, robots = page.read(CORNERS)
+    detail = page.read("page.actors.units.detail")
+    page.click_on("fine")
+    page.until("!page.fine.isOn")
+    plain_units, plain_robots = page.read(CORNERS)
+    boards, box = 4, 36
+    assert racks == plain_units + boards * 4 * box + (boards - 1) * 2 * box
+    assert robots > 1.3 * plain_robots
+    assert page.read("page.actors.units.detail") > detail
+    page.click_on("fine")
+    page.until("page.fine.isOn")
+    assert page.read(CORNERS) == [racks, robots]
+    unit = "page.world.placeOf({kind: 'unit', index: 3})"
+    page.read(f"page.navigator.visit({unit}) ?? true")
+    page.until("page.actors.units.parts.some(({ copies }) => copies[1]?.drawn)")
+    assert page.complaints() == []
+
+
 def test_numbers_are_printed_on_the_units_near_by(page):
     page.until("page.fine?.isOn")
     page.read("page.showAll(false) ?? true")

@@ -100,20 +100,22 @@ class Outcome(BaseModel):
 
 
 class Commanded(BaseModel):
-    """A request that changes something, and its answer."""
+    """A request that changes something, and its answer; or a command over a ROS topic."""
 
     id: int
     time: float = Field(description="[s], simulated")
     wall: str = Field(description="time on the wall, ISO 8601, UTC")
-    by: str = Field(description="the person, by header X-Person or `by`; empty: not given")
-    address: str = Field(description="of the client")
-    method: str
-    path: str = Field(description="beneath /api/v1")
-    body: str = Field(description="the request's first 300 characters")
-    status: int = Field(description="of the answer: 200 done, 409 refused")
+    by: str = Field(
+        description="the person, by header X-Person or `by`; empty: not given; of a topic the node"
+    )
+    address: str = Field(description="of the client; empty over a topic")
+    method: str = Field(description="of HTTP; TOPIC: it came over a ROS topic")
+    path: str = Field(description="beneath /api/v1, or the topic")
+    body: str = Field(description="the request's, or the message's, first 300 characters")
+    status: int = Field(description="of the answer: 200 done, 409 refused; 0: none, as of a topic")
 
 
 class Commands(BaseModel):
-    """The newest commands over HTTP since the viewer began, the oldest of them first."""
+    """The newest commands since the viewer began, the oldest of them first."""
 
     commands: list[Commanded]

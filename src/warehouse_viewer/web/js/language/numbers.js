@@ -7,8 +7,5 @@ export function number(value, digits = 0, most = digits) {
   return text.replace('-', '−');
 }
 
-/** '1 order', '1,200 orders'. */
-export const counted = (n, word) => `${number(n)} ${word}${n === 1 ? '' : 's'}`;
-
 /** A share of 1, as '12 %'. */
 export const percent = (share, digits = 0) => `${number(100 * share, digits)} %`;
