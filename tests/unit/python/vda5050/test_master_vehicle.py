@@ -631,7 +631,7 @@ def test_the_shadow_has_the_reported_velocity():
 
 def test_the_shadow_has_the_velocity_of_successive_positions():
     bench = Bench()
-    for x in (0.0, 0.75, 1.5):
+    for x in (0.0, 0.75, 1.5, 2.25):
         bench.now += 0.5
         bench.tell(driving=True, position=AgvPosition(x, 0, 0))
     assert twist(bench) == (1.5, 0, 0)
@@ -648,4 +648,16 @@ def test_a_vehicle_that_comes_back_stands():
     bench = Bench()
     bench.tell(driving=True, velocity=Velocity(1.5))
     bench.vehicle.take_connection(ConnectionState.ONLINE, bench.now)
+    assert twist(bench) == (0, 0, 0)
+
+
+def test_a_vehicle_that_sets_off_moves_though_it_has_no_speed_yet():
+    bench = Bench()
+    bench.tell(driving=True, velocity=Velocity(0.0))
+    assert twist(bench) == (0.02, 0, 0)
+    bench.now += 1.0
+    bench.tell(velocity=Velocity(0.0))
+    assert twist(bench) == (0.02, 0, 0)
+    bench.now += 1.0  # it says that it drives, and does not
+    bench.tell(velocity=Velocity(0.0))
     assert twist(bench) == (0, 0, 0)
