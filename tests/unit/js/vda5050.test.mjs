@@ -39,12 +39,39 @@ test('the server is asked now and then; robots at no broker have no facts', asyn
     asked += 1;
     return { ok: true, json: async () => [ROBOT] };
   };
-  assert.deepEqual(vda5050Of(7, 0), []);
+  assert.deepEqual(vda5050Of(7, { now: 0 }), []);
   await new Promise(setImmediate);
-  assert.equal(vda5050Of(7, 10).length, 4);
+  assert.equal(vda5050Of(7, { now: 10 }).length, 4);
   assert.deepEqual([isVehicle(7), isVehicle(8)], [true, false]);
-  assert.deepEqual(vda5050Of(8, 20), []);
+  assert.deepEqual(vda5050Of(8, { now: 20 }), []);
   assert.equal(asked, 1);
-  vda5050Of(7, 5000);
+  vda5050Of(7, { now: 5000 });
   assert.equal(asked, 2);
+});
+
+test('at a past moment the recording is asked, and what is of now is not shown', async () => {
+  const past = { update: 1, last_node: 'c2_0', base: ['c3_0'], horizon: ['c4_0', 'c5_0'], driving: true, paused: false,
+    mode: 'AUTOMATIC', actions: ['pick WAITING'], age: 0.4 };
+  const paths = [];
+  let changes = 0;
+  const at = (wall) => vda5050Of(7, { now: 9000, past: wall, changed: () => { changes += 1; } });
+  globalThis.fetch = async (path) => {
+    paths.push(path);
+    return { ok: true, json: async () => [{ ...ROBOT, order: 'o', past }] };
+  };
+  assert.deepEqual(at(100), []);
+  await new Promise(setImmediate);
+  assert.equal(changes, 1);
+  const facts = Object.fromEntries(at(100.1));
+  assert.equal(facts.order, 'o, update 1');
+  assert.equal(facts.base, 'c3_0 (1)');
+  assert.equal(facts.horizon, 'c4_0 → c5_0 (2)');
+  assert.equal(facts.state, 'driving, AUTOMATIC, 0.4 s old');
+  assert.equal(facts.action, 'pick WAITING');
+  at(101);
+  assert.deepEqual(paths, ['/recording/vda5050?at=100.000', '/recording/vda5050?at=101.000']);
+  await new Promise(setImmediate);
+  assert.deepEqual(at(undefined), []);
+  assert.deepEqual(vda5050Of(7, { now: 9001 }), []);
+  assert.equal(paths.at(-1), '/api/v1/vda5050');
 });

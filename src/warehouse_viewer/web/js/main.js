@@ -59,7 +59,7 @@ class Page {
     this.requested = new Requested(this.world);
     this.details = new Details(this.world, select, say, { isPaused: () => this.bar.paused,
       fleet: this.fleet, fallen: this.fallen, wayOf: (id) => this.ways.get(id),
-      stationOf: (name) => this.signs?.stations.get(name), moment: () => this.moment, log: this.log });
+      stationOf: (name) => this.signs?.stations.get(name), moment: () => this.moment, wall: () => this.timeline.wall, log: this.log });
     this.drawers = new Drawers(() => this.fitPanels());
     new ResizeObserver(() => this.uncover()).observe($('details-panel'));
     this.selected = null;

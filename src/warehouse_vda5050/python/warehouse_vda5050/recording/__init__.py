@@ -3,5 +3,5 @@
 
 entry: one message, as a line of JSON. file: many of them, compressed. recorder: takes messages,
 judges and writes them, and counts. player: sends them again in their order and at their times.
-record_command, replay_command: the two programs.
+moments: what vehicles did at any time. record_command, replay_command: the two programs.
 """

@@ -38,15 +38,17 @@ class Recording(Protocol):
 
 class RecordingRoutes:
     """Serves a Recording. newest: returns the chunk that still grows, if there is one. forecasts:
-    whether they can be asked for from its moments."""
+    whether they can be asked for from its moments; vehicles: whether those of VDA 5050 can."""
 
     def __init__(
         self,
         recording: Recording,
         newest: Callable[[], Chunk | None] | None = None,
         forecasts: bool = False,
+        vehicles: bool = False,
     ) -> None:
-        self._recording, self._newest, self._forecasts = recording, newest, forecasts
+        self._recording, self._newest = recording, newest
+        self._forecasts, self._vehicles = forecasts, vehicles
 
     def routes(self) -> list[Route]:
         """Returns the routes, to be added to an application."""
@@ -66,6 +68,7 @@ class RecordingRoutes:
             "cut": self._recording.cut,
             "forecasts": self._forecasts,
             "open": newest.number if newest else 0,
+            "vda5050": self._vehicles,
         }
         chunks += [newest] if newest else []
         return JSONResponse(about | _times(chunks) | {"marks": _marks(chunks)}, headers=FRESH)

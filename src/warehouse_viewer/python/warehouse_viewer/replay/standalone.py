@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The application with the floor's page for a recording, without ROS."""
 
+from collections.abc import Sequence
 from contextlib import suppress
 
 from starlette.applications import Starlette
@@ -18,9 +19,14 @@ from warehouse_viewer.server.sockets import SocketLimit
 RECORDED = "this is a recording: it can be watched, and not commanded"
 
 
-def application(recording: Recording, forecasts: RecordedForecasts | None = None) -> Starlette:
+def application(
+    recording: Recording,
+    forecasts: RecordedForecasts | None = None,
+    vehicles: Sequence[Route] = (),
+) -> Starlette:
     """Returns the ASGI application with the floor's page and the recording, and forecasts from its
-    moments."""
+    moments. vehicles: the routes by which vehicles of VDA 5050 are asked for that were recorded
+    meanwhile."""
     sockets = SocketLimit()
 
     async def live(socket: WebSocket) -> None:
@@ -29,8 +35,9 @@ def application(recording: Recording, forecasts: RecordedForecasts | None = None
     return Starlette(
         routes=[
             WebSocketRoute("/live", live),
-            *RecordingRoutes(recording, forecasts=bool(forecasts)).routes(),
+            *RecordingRoutes(recording, None, bool(forecasts), bool(vehicles)).routes(),
             *(forecasts.routes() if forecasts else ()),
+            *vehicles,
             *Site(FLOOR).routes(),
             Route("/{path:path}", _refuse, methods=["GET", "POST", "PUT", "DELETE"]),
         ]

@@ -22,10 +22,11 @@ export class Details {
   /** `select(name)` for links to others; `say(text, kind, at)` for what became of a command;
    *  `isPaused()`: whether time stands still; `fleet` is the FleetPanel, `fallen` the
    *  FallenItems, `wayOf(id)` what the coordinator plans for a robot, `stationOf(name)`
-   *  what the shift says of a station, and `moment()` and `log` what the Care takes. */
-  constructor(world, select, say, { isPaused, fleet, fallen, wayOf, stationOf, moment, log }) {
+   *  what the shift says of a station, `moment()` and `log` what the Care takes, `wall()` that moment on
+   *  the wall [s since 1970], undefined: no vehicles are recorded. */
+  constructor(world, select, say, { isPaused, fleet, fallen, wayOf, stationOf, moment, wall, log }) {
     Object.assign(this, { world, select, say, isPaused, fleet, fallen, wayOf, stationOf, name: null, robot: null });
-    this.about = { moment, log };
+    this.about = { moment, wall, log };
     for (const button of $('modes').children) {
       on(button, 'click', () => this.setMode(button.dataset.mode));
     }
@@ -137,7 +138,13 @@ export class Details {
     out.push([tr`load`, load < 0 ? tr`none` : link(scene.units[load])]);
     if (limit > 0) out.push([tr`deceleration`, tr`${number(limit, 1)} m/s² at most, so that the load does not tip`]);
     if (load >= 0) out.push([tr`items`, String(world.itemsOf[load].length)]);
-    return [...out, ...this.parts?.vda5050Of(scene.robots[index]) ?? []];
+    return [...out, ...this.factsOfVehicle(scene.robots[index])];
+  }
+
+  /** Order, base and errors of a robot at a broker by VDA 5050. */
+  factsOfVehicle(id) {
+    const past = this.about.moment() === null ? null : this.about.wall();
+    return this.parts?.vda5050Of(id, { past, changed: () => this.refresh() }) ?? [];
   }
 
   factsOfUnit(index) {

@@ -170,6 +170,13 @@ export class Timeline {
     this.drawFigures();
   }
 
+  /** The moment that is shown, on the wall [s since 1970]; undefined: it is not known, or nothing was
+   *  recorded of vehicles of VDA 5050. */
+  get wall() {
+    const { vda5050, chunks } = this.recording;
+    return vda5050 ? wallAt(this.player.time, chunks) ?? undefined : undefined;
+  }
+
   textOf(time) {
     const wall = wallAt(time, this.recording.chunks);
     return wall === null ? clock(time) : `${clock(time)} (${wallClock(wall)})`;
