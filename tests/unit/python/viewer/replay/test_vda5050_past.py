@@ -183,7 +183,7 @@ def test_without_a_broker_s_recording_none_is_asked_for(folder):
 @pytest.mark.parametrize("text", ["", "nan", "now", "inf"])
 def test_a_moment_that_is_none_is_refused(folder, text):
     past = Vda5050Past(folder / "broker.jsonl.zst", folder / "robots.yaml")
-    app = application(FileRecording(folder / NAME), past.routes())
+    app = application(FileRecording(folder / NAME), vehicles=past.routes())
     answer = request(app, "/recording/vda5050", f"at={text}")
     assert answer.status == 422
     expected = f"at is {text!r}; seconds since 1970 were expected"
