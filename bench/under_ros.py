@@ -49,7 +49,8 @@ class Session:
         os.environ["ROS_MASTER_URI"] = f"http://localhost:{port}"
         self._home = tempfile.TemporaryDirectory(prefix="bench_ros_")
         os.environ["ROS_HOME"] = self._home.name
-        self._log = open(f"{self._home.name}/roslaunch.log", "w+")  # noqa: SIM115, closed with it
+        self.home = self._home.name
+        self._log = open(f"{self.home}/roslaunch.log", "w+")  # noqa: SIM115, closed with it
         self._launches = []
         words = ["warehouse.launch", *self._words, f"viewer_port:={self._page}"]
         self.launch("-p", str(port), "warehouse_sim", *words)
@@ -162,11 +163,11 @@ class Session:
 
     def memory(self):
         """Returns the memory of all nodes [MB]; shared pages count once."""
-        return sum(_memory(pid) for pid in self.nodes()) / 1e3
+        return sum(memory_of(pid) for pid in self.nodes()) / 1e3
 
     def node_memory(self):
         """Returns the memory of the world's node [MB]."""
-        return sum(_memory(p) for p, name in self.nodes().items() if name == NODE) / 1e3
+        return sum(memory_of(p) for p, name in self.nodes().items() if name == NODE) / 1e3
 
     def cpu(self):
         """CPU seconds by program name."""
@@ -179,7 +180,8 @@ class Session:
 def _command(pid):
     with contextlib.suppress(OSError):
         words = Path(f"/proc/{pid}/cmdline").read_bytes().decode().split("\0")
-        return next((Path(w).name for w in words if not w.endswith(("python3", "python"))), "?")
+        named = [word for word in words if not word.endswith(("python3", "python"))]
+        return next((Path(word).name for word in named if word not in ("", "-m")), "?")
     return "?"
 
 
@@ -194,7 +196,8 @@ def _children(pid):
     return []
 
 
-def _memory(pid):
+def memory_of(pid):
+    """Returns the memory of a process [kB]; shared pages count in parts."""
     with contextlib.suppress(OSError):
         for line in Path(f"/proc/{pid}/smaps_rollup").read_text().splitlines():
             if line.startswith("Pss:"):

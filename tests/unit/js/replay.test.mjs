@@ -7,6 +7,7 @@ import { read } from '../../../src/warehouse_viewer/web/js/replay/chunk.js';
 import { clock, readClock } from '../../../src/warehouse_viewer/web/js/base/time.js';
 import { linkTo, lookOf, momentOf, timeOf, wallAt } from '../../../src/warehouse_viewer/web/js/replay/link.js';
 import { Player } from '../../../src/warehouse_viewer/web/js/replay/player.js';
+import { rowsOf } from '../../../src/warehouse_viewer/web/js/replay/forecast.js';
 import { Recording } from '../../../src/warehouse_viewer/web/js/replay/recording.js';
 import { State } from '../../../src/warehouse_viewer/web/js/replay/state.js';
 import { AT, table } from './look.mjs';
@@ -181,6 +182,15 @@ test('seeking shows that moment, its events and figures, from one chunk', async 
   await it.seek(5); // back
   assert.ok(Math.abs(placesIn(shown.updates.at(-1))[0][0] - 0.5) < 1e-6);
   assert.deepEqual(shown.events.map(({ id }) => id), [0]);
+});
+
+test('a forecast has a row for each sixth of its time', () => {
+  const time = Array.from({ length: 60 }, (_, i) => 120 + 60 * (i + 1));
+  const band = { p10: time.map(() => 1), p50: time.map((_, i) => 1000 + i), p90: time.map(() => 3.4) };
+  const rows = rowsOf({ time, done: band, open: band, late: band });
+  assert.deepEqual(rows.map(({ at }) => at), ['0:12:00', '0:22:00', '0:32:00', '0:42:00', '0:52:00', '1:02:00']);
+  assert.match(rows[5].done, /^1.?059 \(1 to 3\)$/);
+  assert.equal(rowsOf({ time: [60], done: band, open: band, late: band }).length, 1);
 });
 
 test('playing goes on into the next chunk, and ends with the recording', async () => {

@@ -209,6 +209,9 @@ class World {
   /// Throws std::invalid_argument if gravity is not finite, or above 1000 m/s².
   void setGravity(const Vector3& gravity);
   std::uint64_t seed() const;  ///< Seed of everything random.
+  /// Draws the random failures to come from another stream, such as after a checkpoint was restored
+  /// in several worlds: each number gives another future, 0 the same.
+  void drawFailuresAnew(std::uint64_t number);
   const Realism& realism() const;
   const std::string& name() const;
   /// Puts robots, units and items back to where they were spawned, at rest, towers down, without

@@ -174,6 +174,9 @@ std::uint64_t World::steps() const { return state_->clock.steps; }
 double World::stepSize() const { return state_->clock.dt; }
 const Vector3& World::gravity() const { return state_->settings.gravity; }
 std::uint64_t World::seed() const { return state_->settings.options.seed; }
+void World::drawFailuresAnew(std::uint64_t number) {
+  kiva::drawFailuresAnew(state_->view, state_->failures, number);
+}
 const Realism& World::realism() const { return state_->settings.realism; }
 const std::string& World::name() const { return state_->settings.name; }
 

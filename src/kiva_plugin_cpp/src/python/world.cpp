@@ -154,6 +154,16 @@ get the same commands.)");
 
 CheckpointError (a ValueError), with nothing changed, if the bytes are damaged.)");
   world.def(
+      "draw_failures_anew",
+      [](Host& host, std::uint64_t number) {
+        const auto lock = host.use();
+        host.world.drawFailuresAnew(number);
+      },
+      py::arg("number"),
+      R"(Draws the random failures to come from another stream, such as after restore().
+
+Worlds that restore the same checkpoint fail differently by different numbers; 0 changes nothing.)");
+  world.def(
       "state_hash", guarded([](World& w) { return w.stateHash(); }),
       "Returns a 64-bit hash over all state that decides what happens next; equal worlds have "
       "equal hashes.");

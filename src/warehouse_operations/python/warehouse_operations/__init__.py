@@ -10,6 +10,7 @@ print(ops.kpis()["item_score"])
 
 Rooms, from the lowest; a module imports from its own room and from lower ones:
 
+    goods     SKUs by weight, the sizes of bundles and orders
     stock     SKUs, bins, orders, stations, where units stand
     document  pages: style, sheets, charts on a canvas
     policies  decisions: which order, unit, bin, place, robot

@@ -12,6 +12,7 @@ from enum import StrEnum
 from typing import Any
 
 from warehouse_vda5050.errors import Error
+from warehouse_vda5050.paths import PlannedPath, Waypoint
 from warehouse_vda5050.zones.zone import Response, Zone, ZoneRequest, ZoneSetState
 
 MAP_ID = "warehouse"  # the one map that robots of this project know
@@ -266,6 +267,8 @@ class VehicleState:
     distance_since_last_node: float | None = None  # [m]
     zone_sets: tuple[ZoneSetState, ...] = ()  # 3.0 alone has this and what follows
     zone_requests: tuple[ZoneRequest, ...] = ()
+    planned: PlannedPath | None = None
+    intermediate: tuple[Waypoint, ...] = ()
     header: Header = Header()
 
 
@@ -318,6 +321,7 @@ class Factsheet:
     max_acceleration: float = 1.0
     max_deceleration: float = 1.0
     lift_time: float = 2.2
+    quarter_turn: float = 0.625  # the time that it takes
     load_size: tuple[float, float] = (0.8, 0.8)
     load_type: str = "unit"
     height_loaded: float = 1.9

@@ -44,3 +44,28 @@ def test_repairs_take_exponential_times(recorded):
     # Those that are not over at the end are left out: a handful of REPAIR in SECONDS.
     assert stats.kstest(took, "expon", args=(0, REPAIR)).pvalue > 0.01
     assert np.mean(took) == pytest.approx(REPAIR, rel=3 / np.sqrt(len(took)))
+
+
+def failures_after(checkpoint, number):
+    """Returns when robots failed in a minute after a checkpoint, with failures of that number."""
+    world = World()
+    world.restore(checkpoint)
+    world.draw_failures_anew(number)
+    world.step(60_000)
+    events = world.events()
+    return events["time"][events["kind"] == EventKind.FAILED].tolist()
+
+
+def test_worlds_of_a_checkpoint_fail_differently_by_number():
+    world = World(realism={"failures": {"per_robot_hour": 3600 / GAP, "repair_time": REPAIR}})
+    world.spawn_model("kiva", "kiva1", 0, 0)
+    world.step(5000)
+    world.events()
+    saved = world.checkpoint()
+    world.step(60_000)
+    events = world.events()
+    went_on = events["time"][events["kind"] == EventKind.FAILED].tolist()
+    same, first, again, second = (failures_after(saved, number) for number in (0, 1, 1, 2))
+    assert same == went_on and len(same) > 20
+    assert first == again and len(first) > 20
+    assert not set(first) & set(same) and not set(first) & set(second)

@@ -172,6 +172,14 @@ void sampleFailures(TaskView& world, FailureState& failures) {
   failures.exposure = random.exponential(kHour / realism.per_robot_hour);
 }
 
+void drawFailuresAnew(TaskView& world, FailureState& failures, std::uint64_t number) {
+  const FailureRealism& realism = world.settings.realism.failures;
+  if (number == 0 || !realism.enabled || realism.per_robot_hour == 0) return;
+  failures.count += number << 32;  // no stream comes to that many draws
+  RandomStream random(world.settings.options.seed, Matter::kFailure, 0, failures.count++);
+  failures.exposure = random.exponential(kHour / realism.per_robot_hour);
+}
+
 bool mayFail(const Realism& realism, const FailureState& failures) {
   return realism.failures.enabled || !failures.defects.empty();
 }

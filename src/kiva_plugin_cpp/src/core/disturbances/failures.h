@@ -17,6 +17,8 @@ std::optional<RobotReport> lastHeard(const Scene& world, const FailureState& fai
 
 /// Repairs the robots that are due, and draws the next random failures, for one step of time.
 void sampleFailures(TaskView& world, FailureState& failures);
+/// Draws the random failures to come from another stream: number 0 goes on with the same.
+void drawFailuresAnew(TaskView& world, FailureState& failures, std::uint64_t number);
 /// Returns whether a robot has a failure, or may get one at random.
 bool mayFail(const Realism& realism, const FailureState& failures);
 /// Gives robots their defects again, after a checkpoint was read.

@@ -38,7 +38,7 @@ class FleetDriver:
     if that is a list. Robots that are lost, or broken in others' way, are towed `tow_after` [s]
     later; None: when tow() is called. `threads`: see PlanLoop. `collisions` counts, `refusals` are
     texts, `fallen` the items on the floor; `failures` and `people` sum up what those cost. `plan`:
-    of the world as it is; None: is read from it.
+    of the world as it is; None: is read from it. takes_over_at: see FleetController.
     """
 
     def __init__(
@@ -50,6 +50,7 @@ class FleetDriver:
         tow_after: float | None = None,
         threads: int = 0,
         plan: FloorPlan | None = None,
+        takes_over_at: float | None = None,
     ) -> None:
         self.world = world
         self.plan = plan or plan_reader.of_world(world)
@@ -61,6 +62,7 @@ class FleetDriver:
             seed,
             planner,
             tow_after=tow_after,
+            takes_over_at=takes_over_at,
             threads=threads,
         )
         self.traffic, self.transports = self.controller.traffic, self.controller.transports

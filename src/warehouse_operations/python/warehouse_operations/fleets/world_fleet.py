@@ -22,7 +22,13 @@ class WorldFleet(FleetDriver):
     """A FleetDriver that decides by policies, with the figures of a report."""
 
     def __init__(
-        self, world: Any, site: Any, seed: int, threads: int = 0, planner: Any = None
+        self,
+        world: Any,
+        site: Any,
+        seed: int,
+        threads: int = 0,
+        planner: Any = None,
+        takes_over_at: float | None = None,
     ) -> None:
         super().__init__(
             world,
@@ -32,6 +38,7 @@ class WorldFleet(FleetDriver):
             tow_after=TOW_AFTER,
             threads=threads,
             plan=site.plan,
+            takes_over_at=takes_over_at,
         )
         self.robot_count = len(site.robots)
         self.travel = Travel(site.plan, site.kinematics)

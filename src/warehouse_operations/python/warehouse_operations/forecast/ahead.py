@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One run ahead: a fork goes on with ideal robots, and is looked at minute by minute."""
+"""One run ahead: a fork goes on with ideal robots, or simulated ones, and is looked at minute by
+minute."""
 
+import contextlib
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,8 +17,12 @@ from warehouse_operations.fleets.loads import ITEM_KG
 from warehouse_operations.forecast.fork import PLAN, TRANSPORTS, TRAVEL, Fork, shift_of
 from warehouse_operations.runs.director import Director
 from warehouse_operations.runs.event_file import Event, most_added
+from warehouse_operations.runs.operations import CYCLE, ROUNDING
 from warehouse_operations.stock.orders import Order
 from warehouse_operations.stock.site import Site
+
+if TYPE_CHECKING:
+    from warehouse_operations.fleets.forked_world import ForkedWorld
 
 OVER = (OrderEventKind.COMPLETED, OrderEventKind.CANCELLED)
 
@@ -24,7 +30,7 @@ OVER = (OrderEventKind.COMPLETED, OrderEventKind.CANCELLED)
 @dataclass(frozen=True)
 class Task:
     """What all runs of a forecast share. times: at which runs are looked at [s]. seed: of the
-    forecast; a run adds its number."""
+    forecast; a run adds its number. physics: robots are simulated, from the fork's checkpoint."""
 
     site: Site
     fork: Fork
@@ -32,6 +38,7 @@ class Task:
     events: tuple[Event, ...] = ()
     availability: Availability = field(default_factory=Availability)
     seed: int = 1
+    physics: bool = False
 
 
 @dataclass(frozen=True)
@@ -54,8 +61,6 @@ class Outcome:
 class Ahead:
     """A shift that goes on from a fork, with what a Director needs: shift, fleet, site, ideal."""
 
-    ideal = True
-
     def __init__(self, task: Task, number: int) -> None:
         fork, site = task.fork, task.site
         chance = (task.seed, number)
@@ -63,19 +68,15 @@ class Ahead:
         failures = task.availability.failures
         repairs = np.random.default_rng((*chance, 2**20))
         usual = failures.repair_time if failures else 0.0
-        self.fleet = ForkedFleet(
-            site.plan,
-            fork.fleet,
-            kinematics=site.kinematics,
-            pace=fork.pace,
-            spare=spare,
-        )
-        parts = {TRANSPORTS: self.fleet, TRAVEL: self.fleet.travel, PLAN: site.plan}
+        self.ideal = not task.physics
+        self.fleet = _fleet(task, number, spare)
+        transports: Any = self.fleet.transports
+        parts = {TRANSPORTS: transports, TRAVEL: self.fleet.travel, PLAN: site.plan}
         self.shift = shift_of(fork, parts, chance)
         self.site = _with_robots(site, fork, spare)
         self.fleet.set_hooks(self.shift.hooks)
         self.fleet.resume(lambda: float(repairs.exponential(usual)) if usual else 0.0)
-        if task.availability:
+        if task.availability and isinstance(self.fleet, ForkedFleet):
             rng = np.random.default_rng((*chance, 2**20 + 2))
             self.fleet.keep_up(task.availability, rng, self._mass_of_items)
         if task.events:
@@ -93,9 +94,19 @@ class Ahead:
 
     def step_until(self, end: float) -> None:
         """Goes on to a time [s]."""
+        cycle = math.inf if self.ideal else CYCLE
         while self.shift.now < end:
-            self.fleet.step_until(min(self.shift.next_time(), end))
-            self.shift.advance(min(self.fleet.time, end))
+            until = min(self.shift.next_time(), end, self.fleet.time + cycle)
+            self.fleet.step_until(until)
+            now = self.fleet.time
+            if not self.ideal:
+                self.shift.fallen.update(self.fleet.fallen_items)
+            # A world counts steps: its times differ from these by rounding.
+            self.shift.advance(until if abs(now - until) < ROUNDING else min(now, end))
+
+    def close(self) -> None:
+        """Ends the threads of simulated robots."""
+        self.fleet.close()
 
     def overdue(self) -> int:
         """Returns the number of orders that are not over and past their due time."""
@@ -106,6 +117,11 @@ class Ahead:
 def run(task: Task, number: int, look: Callable[[], object] = lambda: None) -> Outcome:
     """Returns the Outcome of a run. look: is called now and then. Raises EventError."""
     ahead = Ahead(task, number)
+    with contextlib.closing(ahead):
+        return _outcome(ahead, task, number, look)
+
+
+def _outcome(ahead: Ahead, task: Task, number: int, look: Callable[[], object]) -> Outcome:
     tally = ahead.shift.tally
     done, late, pieces = tally.orders_completed, tally.late_orders, tally.items_picked
     rows: list[tuple[int, int, int, int]] = []
@@ -124,6 +140,18 @@ def run(task: Task, number: int, look: Callable[[], object] = lambda: None) -> O
     finish = max(ahead.over.values(), default=task.fork.time) if ended else math.nan
     done_then, open_then, late_then, pieces_then = _columns(rows)
     return Outcome(number, done_then, open_then, late_then, pieces_then, ahead.over, finish)
+
+
+def _fleet(task: Task, number: int, spare: dict[int, int]) -> "ForkedFleet | ForkedWorld":
+    """Returns the robots of a run."""
+    fork, site = task.fork, task.site
+    if task.physics:
+        from warehouse_operations.fleets.forked_world import ForkedWorld
+
+        return ForkedWorld(fork.world, fork.fleet, site, task.seed, number)
+    return ForkedFleet(
+        site.plan, fork.fleet, kinematics=site.kinematics, pace=fork.pace, spare=spare
+    )
 
 
 def _columns(rows: Sequence[tuple[int, int, int, int]]) -> list[tuple[int, ...]]:

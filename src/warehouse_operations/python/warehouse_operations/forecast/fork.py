@@ -42,7 +42,8 @@ class ForkError(Exception):
 class Fork:
     """A shift at a time [s], and its fleet. shift: as bytes. began: its begin [s]. ways_back: how
     long units took back into storage lately [s]. recent: orders like which others come, where
-    nothing else says what comes. pace: of robots from now on."""
+    nothing else says what comes. pace: of robots from now on. world: a checkpoint, for simulated
+    robots; empty: there is none."""
 
     time: float
     began: float
@@ -51,6 +52,7 @@ class Fork:
     ways_back: tuple[float, ...] = ()
     recent: tuple[OrderDraft, ...] = ()
     pace: Pace = Pace()
+    world: bytes = b""
 
     @property
     def size(self) -> int:

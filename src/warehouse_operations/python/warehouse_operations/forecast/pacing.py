@@ -24,6 +24,8 @@ def paced(tasks: Sequence[Task]) -> list[Task]:
     """Returns the tasks of a fork with the pace of its robots; as they are where too little has
     happened."""
     first = tasks[0]
+    if first.physics:  # they meet traffic
+        return list(tasks)
     pace = pace_of(first)
     return [replace(task, fork=replace(task.fork, pace=pace)) for task in tasks]
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from warehouse_operations.fleets.availability import Availability
 from warehouse_operations.forecast.ahead import Task, times_of
 from warehouse_operations.forecast.fork import Fork
-from warehouse_operations.runs.event_file import Event, EventError, of_line
+from warehouse_operations.runs.event_file import Event, EventError, most_added, of_line
 from warehouse_operations.runs.names import Names
 from warehouse_operations.shift.shift import Shift
 from warehouse_operations.stock.demand import FromFile
@@ -17,6 +17,7 @@ from warehouse_operations.stock.site import Site
 DAY = 24 * 60.0  # [min]
 MOST_RUNS = 1000
 MOST_CHANGES = 50
+LONGEST = 200  # a change [characters]
 
 
 class ForecastError(Exception):
@@ -26,12 +27,13 @@ class ForecastError(Exception):
 @dataclass(frozen=True)
 class Request:
     """A forecast: how far ahead [min], how many runs (0: as many as time allows), with which
-    changes, an event in a line each."""
+    changes, an event in a line each. physics: with simulated robots in place of ideal ones."""
 
     minutes: float = 60.0
     runs: int = 0
     changes: tuple[str, ...] = ()
     seed: int = 1
+    physics: bool = False
 
     def check(self) -> None:
         """Raises ForecastError for numbers that can't be meant."""
@@ -45,6 +47,11 @@ class Request:
             raise ForecastError(
                 f"{len(self.changes)} changes; {MOST_CHANGES} or fewer were expected"
             )
+        for line in self.changes:
+            if len(line) > LONGEST or not line.isprintable():
+                raise ForecastError(
+                    f"a change is {line[:20]!r}…; a line of up to {LONGEST} characters was expected"
+                )
 
     def events(self, names: Names, since_begin: float) -> tuple[Event, ...]:
         """Returns the events of its changes. since_begin: how long the shift runs [s]. Raises
@@ -77,14 +84,29 @@ def tasks_of(
     """Returns the Task of a request; with changes two: as it is, and with them. elsewhere: see
     Names. Raises ForecastError before anything starts."""
     request.check()
-    names = replace(names_of(site, shift), elsewhere=elsewhere)
+    names = replace(names_of(site, shift), elsewhere=elsewhere, ideal=not request.physics)
     events = request.events(names, fork.time - fork.began)
+    if request.physics:
+        check_world(fork, events)
     coming = any(event.kind == "orders" for event in events)
     if not (shift.orders or comes_more(shift) or fork.recent or coming):
         raise ForecastError("there is nothing to forecast: no order is open, and none is to come")
     times, more = times_of(fork, request.minutes), availability or Availability()
     sets: Sequence[tuple[Event, ...]] = [(), events] if events else [()]
-    return [Task(site, fork, times, each, more, request.seed) for each in sets]
+    return [Task(site, fork, times, each, more, request.seed, request.physics) for each in sets]
+
+
+def check_world(fork: Fork, events: Sequence[Event]) -> None:
+    """Raises ForecastError where simulated robots can't go on from a fork."""
+    if not fork.world:
+        raise ForecastError(
+            "simulated robots need a checkpoint of their world, which this shift does not have:"
+            " ideal ones were expected"
+        )
+    if most_added(events):
+        raise ForecastError(
+            "simulated robots are those of the checkpoint: ideal ones were expected for robots +"
+        )
 
 
 def _check_robots(events: Sequence[Event], count: int) -> None:

@@ -38,6 +38,8 @@ class Threshold:
         for _ in range(self.waiting - len(view.bundles)):
             quantity = int(view.rng.integers(BUNDLE_LEAST, BUNDLE_MOST + 1))
             sku = view.sku_to_refill()
+            if sku is not None:
+                quantity = view.usual_bundle(sku) or quantity
             if missing < quantity or sku is None:
                 return
             missing -= quantity
@@ -45,11 +47,13 @@ class Threshold:
 
     def _shortages(self, view: "View") -> Iterator[tuple[str, int]]:
         for sku, lacking in sorted(view.shortages().items()):
+            bundle = view.usual_bundle(sku)
+            most = bundle or BUNDLE_MOST
             pieces = min(lacking, AHEAD - view.pieces_at_door(sku))
-            whole = -(-pieces // BUNDLE_MOST) * BUNDLE_MOST
-            total = whole if view.inventory.roomy[sku] else pieces
-            for begun in range(0, total, BUNDLE_MOST):
-                yield sku, min(BUNDLE_MOST, total - begun)
+            whole = -(-pieces // most) * most
+            total = whole if bundle or view.inventory.roomy[sku] else pieces
+            for begun in range(0, total, most):
+                yield sku, min(most, total - begun)
 
 
 class Never:

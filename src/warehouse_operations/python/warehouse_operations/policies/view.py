@@ -47,6 +47,7 @@ class View:
         self._ranked_at = -np.inf
         self._popularity_rank = _ranks_of(self.assortment)
         self._sku_index = {sku: i for i, sku in enumerate(self.assortment.skus)}
+        self._demand_sums = np.cumsum(self.assortment.popularity)
         self._refill_weights = np.zeros(len(self._sku_index))
 
     @property
@@ -96,13 +97,16 @@ class View:
                 pieces += min(bin_.quantity - bin_.reserved, asked)
         return pieces
 
-    def room(self, unit: int) -> int:
-        """Returns how many pieces can be put into a unit's bins."""
-        return sum(bin_.room for bin_ in self.inventory.of_unit[unit])
+    def room(self, unit: int) -> float:
+        """Returns how many pieces can be put into a unit's bins; or the weight, where units have
+        limits."""
+        return self.inventory.room_on(unit)
 
     def sku_to_refill(self) -> str | None:
         """Draws a SKU, weighted by its number of bins with room for a bundle; None without such a
-        bin."""
+        bin. Where units have limits, it is drawn by its share of the demand."""
+        if self.inventory.goods:
+            return self._sku_by_demand()
         changed = self.inventory.room_changed | self.goods_in.changed
         self.inventory.room_changed.clear()
         self.goods_in.changed.clear()
@@ -114,6 +118,15 @@ class View:
             return None
         at = np.searchsorted(sums, self.rng.random() * sums[-1], side="right")
         return self.assortment.skus[min(int(at), len(sums) - 1)]
+
+    def _sku_by_demand(self) -> str:
+        sums = self._demand_sums
+        at = np.searchsorted(sums, self.rng.random() * sums[-1], side="right")
+        return self.assortment.skus[min(int(at), len(sums) - 1)]
+
+    def usual_bundle(self, sku: str) -> int:
+        """Returns the pieces of each bundle of a SKU; 0: they differ."""
+        return self.inventory.goods.bundle(sku) if self.inventory.goods else 0
 
     def shortages(self) -> dict[str, int]:
         """Returns the pieces that orders need above stock and ordered pieces, by SKU."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from warehouse_operations.policies import Policies
+from warehouse_operations.runs import first_stock
 from warehouse_operations.shift.shift import Shift
 from warehouse_operations.stock import days, orders_text
 from warehouse_operations.stock.assortment import Assortment, listed, stocked
@@ -85,12 +86,19 @@ def open_shift(
         floor=Whereabouts(site.plan, site.robots, site.units, travel),
         policies=policies,
         demand=make_demand(
-            orders, assortment, count, demand_rng, now, sum(bin_.capacity for bin_, _ in stock)
+            orders,
+            assortment,
+            count,
+            demand_rng,
+            now,
+            sum(bin_.capacity for bin_, _ in stock),
+            site.sizes,
         ),
         settings=settings,
         journal=journal,
         rng=policy_rng,
         now=now,
+        goods=site.goods,
     )
     if stored and database and journal:
         with database.reading():
@@ -119,6 +127,9 @@ def _new_stock(
     if site.stock:
         return listed(site.items, site.stock, rng)
     own = _own_skus(orders, site)
+    if site.goods:
+        assortment = own or first_stock.assortment(site.goods, rng)
+        return assortment, first_stock.stocked(site.goods, site.items, rng, site.level, assortment)
     return stocked(site.items, rng, site.skus, level=site.level, own=own)
 
 

@@ -10,31 +10,35 @@ from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_layout.convert.common import PathName
 from warehouse_layout.convert.rawsim.instance import read_floor
 from warehouse_layout.convert.rawsim.xml_fields import InstanceError, number_of
+from warehouse_operations.goods.kinds import Goods, Kinds
 from warehouse_operations.stock.settings import Settings
 from warehouse_operations.stock.site import Site
 
 __all__ = ["InstanceError", "read_instance"]
 
-BIN = 100.0  # capacity of a pod that one bin stands for
+CAPACITY = 500.0  # weight that a pod holds, unless its element says another
 
 
 def read_instance(path: PathName) -> Site:
     """Returns the Site of an .xinst file. Raises InstanceError."""
     instance = read_floor(path)
-    items = [
-        (f"item{unit}.{i + 1}", unit)
-        for unit, pod in zip(instance.units, instance.pods)
-        for i in range(max(1, round(number_of(path, pod, "Capacity", 500.0) / BIN)))
-    ]
+    goods = Goods(
+        Kinds.drawn(),
+        {
+            unit: number_of(path, pod, "Capacity", CAPACITY)
+            for unit, pod in zip(instance.units, instance.pods)
+        },
+    )
     overrides = {name: _times(path, seconds) for name, seconds in instance.elements.items()}
     return Site(
         instance.plan,
         instance.robots,
         instance.units,
-        items,
+        goods.items(),
         instance.name,
         _kinematics(path, instance.bots),
         Settings(by_station=overrides),
+        goods=goods,
     )
 
 

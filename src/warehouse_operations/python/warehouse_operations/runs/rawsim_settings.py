@@ -9,13 +9,27 @@ from xml.etree.ElementTree import Element
 
 from warehouse_layout.convert.common import PathName
 from warehouse_layout.convert.rawsim.xml_fields import InstanceError, read_root, text_of
+from warehouse_operations.goods.kinds import Kinds
+from warehouse_operations.goods.order_sizes import OrderSizes, Spread
+from warehouse_operations.runs import rawsim_skus
 
+# Elements that describe the sizes of orders.
+SIZES = {
+    f"{prefix}PositionCount{bound}"
+    for prefix in ("", "Order")
+    for bound in ("Mean", "StdDev", "Min", "Max")
+} | {"DueTimePriorityOrderProbability", "DueTimePriorityOrder", "DueTimeOrdinaryOrder"}
 # Elements that a shift follows, and those without effect on figures: names, logs, drawing.
 FOLLOWED = {
     "SimulationDuration",
     "Seed",
     "InventoryConfiguration/OrderMode",
     "InventoryConfiguration/InitialInventory",
+    *(f"InventoryConfiguration/{name}" for name in SIZES),
+    "InventoryConfiguration/ItemWeightMin",
+    "InventoryConfiguration/ItemWeightMax",
+    "InventoryConfiguration/BundleSizeMin",
+    "InventoryConfiguration/BundleSizeMax",
     "InventoryConfiguration/DemandInventoryConfiguration/OrderCount",
     "InventoryConfiguration/DemandInventoryConfiguration/BundleCount",
     "InventoryConfiguration/DemandInventoryConfiguration/InventoryLevelBundleStopThreshold",
@@ -23,6 +37,8 @@ FOLLOWED = {
 }
 WITHOUT_EFFECT = {
     "Name",
+    "UseAcceleration",  # of robots of another kind than RAWSim-O's instances have
+    "UseTurnDelay",
     "LogLevel",
     "LogFileLevel",
     "DebugMode",
@@ -36,31 +52,21 @@ WITHOUT_EFFECT = {
     "CommentTag2",
     "CommentTag3",
     "InventoryConfiguration/WarmupOrderCount",
+    # They count where DueTimePriorityMode is false, which is named.
+    "InventoryConfiguration/DueTimeOffsetMean",
+    "InventoryConfiguration/DueTimeOffsetStdDev",
+    "InventoryConfiguration/DueTimeOffsetMin",
+    "InventoryConfiguration/DueTimeOffsetMax",
 }
 # Values of the only behaviour that a shift has.
 DONE: dict[str, str | float] = {
     "SimulationWarmupTime": 0,
-    "UseAcceleration": "true",
-    "UseTurnDelay": "true",
     "QueueHandlingEnabled": "true",
     "InventoryConfiguration/ItemType": "SimpleItem",
     "InventoryConfiguration/SubmitBatches": "false",
     "InventoryConfiguration/IgnoreCapacityForBundleGeneration": "false",
-    "InventoryConfiguration/BundleSizeMin": 4,
-    "InventoryConfiguration/BundleSizeMax": 12,
     "InventoryConfiguration/ReturnOrderProbability": 0,
-    "InventoryConfiguration/PositionCountMean": 1,
-    "InventoryConfiguration/PositionCountStdDev": 0.3,
-    "InventoryConfiguration/PositionCountMin": 1,
-    "InventoryConfiguration/PositionCountMax": 3,
-    "InventoryConfiguration/OrderPositionCountMean": 1,
-    "InventoryConfiguration/OrderPositionCountStdDev": 1,
-    "InventoryConfiguration/OrderPositionCountMin": 1,
-    "InventoryConfiguration/OrderPositionCountMax": 4,
     "InventoryConfiguration/DueTimePriorityMode": "true",
-    "InventoryConfiguration/DueTimePriorityOrderProbability": 0.2,
-    "InventoryConfiguration/DueTimePriorityOrder": 1800,
-    "InventoryConfiguration/DueTimeOrdinaryOrder": 7200,
     "InventoryConfiguration/DemandInventoryConfiguration/InventoryLevelDrivenBundleGeneration": (
         "true"
     ),
@@ -76,6 +82,8 @@ class ShiftSettings:
     duration_s: float | None = None
     seed: int | None = None
     level: float | None = None  # of the first stock, over its room
+    sizes: OrderSizes | None = None  # of drawn orders
+    kinds: Kinds | None = None  # the SKUs of a file named there, or those of its ranges
     not_followed: tuple[str, ...] = ()  # sentences about other settings of the file
 
 
@@ -103,14 +111,48 @@ def read_settings(path: PathName) -> ShiftSettings:
         text_of(path, root, "SimulationDuration", None),
         None if seed is None else int(seed),
         text_of(path, root, ".//InitialInventory", None),
+        _sizes(path, root),
+        rawsim_skus.of_settings(path, root),
         tuple(_not_followed(path, root)),
     )
+
+
+def _sizes(path: PathName, root: Element) -> OrderSizes | None:
+    """Returns the sizes of orders; None where the file names none of SIZES."""
+    inventory = root.find("InventoryConfiguration")
+    if inventory is None or not any(inventory.find(name) is not None for name in SIZES):
+        return None
+    usual = OrderSizes()
+    return OrderSizes(
+        _spread(path, inventory, "OrderPositionCount", usual.lines),
+        _spread(path, inventory, "PositionCount", usual.pieces),
+        text_of(path, inventory, "DueTimePriorityOrder", usual.due_soon),
+        text_of(path, inventory, "DueTimePriorityOrderProbability", usual.share_soon),
+        text_of(path, inventory, "DueTimeOrdinaryOrder", usual.due_later),
+    )
+
+
+def _spread(path: PathName, inventory: Element, name: str, usual: Spread) -> Spread:
+    try:
+        return Spread(
+            text_of(path, inventory, f"{name}Mean", usual.mean),
+            text_of(path, inventory, f"{name}StdDev", usual.deviation),
+            int(text_of(path, inventory, f"{name}Min", usual.least)),
+            int(text_of(path, inventory, f"{name}Max", usual.most)),
+        )
+    except ValueError as error:
+        if isinstance(error, InstanceError):
+            raise
+        raise InstanceError(f"{path}: {name}Min and {name}Max are {error}") from error
 
 
 def _not_followed(path: PathName, root: Element) -> Iterator[str]:
     """Yields a sentence for each element with a setting that a shift does not follow."""
     for name, text in _leaves(root):
         if name in FOLLOWED or name in WITHOUT_EFFECT or _is_done(name, text):
+            continue
+        if name == rawsim_skus.FILE:
+            yield from rawsim_skus.remarks(path, text)
             continue
         instead = f"; it is {DONE[name]} here" if name in DONE else ""
         yield f"{path}: {name} {text} is not followed{instead}"

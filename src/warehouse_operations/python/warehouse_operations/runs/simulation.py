@@ -25,7 +25,7 @@ from warehouse_operations.runs.event_file import Event, EventError
 from warehouse_operations.runs.operations import Operations
 from warehouse_operations.runs.progress import ProgressBar
 from warehouse_operations.runs.rawsim import InstanceError, read_instance
-from warehouse_operations.runs.rawsim_settings import read_settings
+from warehouse_operations.runs.rawsim_settings import ShiftSettings, read_settings
 from warehouse_operations.stock.demand import DemandError
 from warehouse_operations.stock.site import Site
 from warehouse_operations.store import check
@@ -204,8 +204,8 @@ def _open_operations(description: Description, database: str | None = None) -> O
     if description.instance:
         site = read_instance(description.instance)
         if description.settings:
-            settings = read_settings(description.settings)
-            site = replace(site, level=settings.level or site.level)
+            site = _of_settings(site, read_settings(description.settings))
+        _check_bundles(description.instance, site)
         world = None
         if description.physics:
             if jams := _jams(description.instance, site):
@@ -227,6 +227,8 @@ def _open_operations(description: Description, database: str | None = None) -> O
     else:
         world = _preset(description)
         site = Site.of_world(world, description.size)
+    if description.settings:
+        site = replace(site, sizes=read_settings(description.settings).sizes)
     site = measured.read(description.realism).at(site)
     check_stations(description, site)
     if description.planner and not description.physics:
@@ -246,6 +248,25 @@ def _open_operations(description: Description, database: str | None = None) -> O
     if description.stations:
         ops.shift.open_picking(description.stations)
     return ops
+
+
+def _of_settings(site: Site, settings: ShiftSettings) -> Site:
+    """Returns the Site of an instance with the stock of a settings file."""
+    goods = site.goods
+    if goods and settings.kinds:
+        goods = replace(goods, kinds=settings.kinds)
+    items = goods.items() if goods else site.items
+    return replace(site, level=settings.level or site.level, goods=goods, items=items)
+
+
+def _check_bundles(path: str, site: Site) -> None:
+    """Raises InstanceError where no bundle fits on any pod."""
+    if site.goods and not site.goods.skus:
+        most = max(site.goods.limits.values(), default=0.0)
+        raise InstanceError(
+            f"{path}: no bundle of any SKU fits on a pod of Capacity {most:g}; a Capacity for the"
+            " lightest at least was expected"
+        )
 
 
 def check_stations(description: Description, site: Site) -> None:

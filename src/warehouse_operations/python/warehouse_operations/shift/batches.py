@@ -24,7 +24,11 @@ def sizes(
     for bin_ in inventory.empty.values():
         if bin_.unit in units:
             out[bin_.unit] += 1
-    return Counter({unit: min(size, len(bundles)) for unit, size in out.items() if size})
+    fits = {
+        unit: min(size, len(bundles), inventory.bundles_that_fit(unit))
+        for unit, size in out.items()
+    }
+    return Counter({unit: int(size) for unit, size in fits.items() if size})
 
 
 def _fitting(bin_: Bin, quantities: list[int]) -> int:

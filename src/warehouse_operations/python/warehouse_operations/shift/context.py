@@ -5,6 +5,7 @@ import hashlib
 from collections.abc import Collection
 from typing import Any
 
+from warehouse_operations.goods.kinds import Goods
 from warehouse_operations.shift.journal import Journal
 from warehouse_operations.shift.tally import Tally
 from warehouse_operations.stock.event_queue import Clock
@@ -15,12 +16,14 @@ class Context:
     """The clock of a shift, its stock, and the records of what happens in it.
 
     inventory: the bins, whose moves are recorded. journal: receives every change. tally: counts
-    for the KPIs.
+    for the KPIs. goods: see Inventory.
     """
 
-    def __init__(self, clock: Clock, bins: Collection[Bin], journal: Journal) -> None:
+    def __init__(
+        self, clock: Clock, bins: Collection[Bin], journal: Journal, goods: Goods | None = None
+    ) -> None:
         self.clock, self.journal, self.tally = clock, journal, Tally()
-        self.inventory = Inventory(bins, self._on_move)
+        self.inventory = Inventory(bins, self._on_move, goods)
         self._hash = hashlib.blake2b(digest_size=8)
 
     def state_hash(self) -> str:

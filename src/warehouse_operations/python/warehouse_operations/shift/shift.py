@@ -14,6 +14,7 @@ import numpy as np
 
 from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_layout.message_enums import OrderState, StationMode
+from warehouse_operations.goods.kinds import Goods
 from warehouse_operations.policies import Policies
 from warehouse_operations.policies.view import View
 from warehouse_operations.shift import kpis
@@ -72,13 +73,14 @@ class Shift:
         journal: Journal | None = None,
         rng: np.random.Generator | None = None,
         now: float = 0.0,
+        goods: Goods | None = None,
     ) -> None:
         self.policies, self.floor = policies, floor
         self.settings = settings or Settings()
         self.assortment, self.demand = assortment, demand
         self._transports, self._rng = transports, rng or np.random.default_rng(1)
         self._clock, self.notices = Clock(now), Notices()
-        self.context = Context(self._clock, bins, journal or Journal())
+        self.context = Context(self._clock, bins, journal or Journal(), goods)
         self.inventory, self.tally = self.context.inventory, self.context.tally
         self.order_book = OrderBook(self.context, assortment.skus, self.notices)
         most = self.settings.units_at(len(floor.robots), len(floor.plan.stations))
@@ -229,8 +231,11 @@ class Shift:
     def _order_bundle(self, _: None) -> None:
         sku = self.view.sku_to_refill()
         if sku:
-            self.replenishing.order(sku, int(self._rng.integers(4, 13)))
+            self.replenishing.order(sku, self._bundle_of(sku))
         self._schedule_bundle()
+
+    def _bundle_of(self, sku: str) -> int:
+        return self.view.usual_bundle(sku) or int(self._rng.integers(4, 13))
 
     # Orders.
 

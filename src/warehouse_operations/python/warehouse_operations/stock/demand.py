@@ -7,6 +7,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from warehouse_operations.goods.order_sizes import OrderSizes
 from warehouse_operations.stock import days, order_mix, orders_text
 from warehouse_operations.stock.acceptance import MOST_WAITING
 from warehouse_operations.stock.assortment import Assortment
@@ -42,27 +43,44 @@ class DrawsOrders(Protocol):
 class Customers:
     """Draws orders from an assortment; the same generator state gives the same orders."""
 
-    def __init__(self, assortment: Assortment, rng: np.random.Generator) -> None:
-        self.assortment, self._rng = assortment, rng
+    def __init__(
+        self, assortment: Assortment, rng: np.random.Generator, sizes: OrderSizes | None = None
+    ) -> None:
+        self.assortment, self._rng, self._sizes = assortment, rng, sizes
 
     def order(self, now: float, in_stock: Callable[[str], int]) -> OrderDraft | None:
         """Draws an order of SKUs in stock, by in_stock(sku) [pieces]; None if none of the drawn
         SKUs is."""
         rng = self._rng
-        count = LINES[int(np.searchsorted(LINE_SUMS, rng.random(), side="right"))]
+        count = self._lines()
         lines = {}
         for _ in range(count * 20):
             sku = self.assortment.skus[self._draw()]
-            pieces = round(rng.normal(PIECES_MEAN, PIECES_DEVIATION))
-            pieces = min(max(pieces, PIECES_LEAST), PIECES_MOST)
+            pieces = self._pieces()
             if sku not in lines and in_stock(sku) >= pieces:
                 lines[sku] = pieces
                 if len(lines) == count:
                     break
         if not lines:
             return None
-        due = DUE_SOON if rng.random() < DUE_SOON_SHARE else DUE_LATER
+        soon, share, later = (
+            (self._sizes.due_soon, self._sizes.share_soon, self._sizes.due_later)
+            if self._sizes
+            else (DUE_SOON, DUE_SOON_SHARE, DUE_LATER)
+        )
+        due = soon if rng.random() < share else later
         return OrderDraft(tuple(lines.items()), now, now + due)
+
+    def _lines(self) -> int:
+        if self._sizes:
+            return self._sizes.lines.draw(self._rng)
+        return LINES[int(np.searchsorted(LINE_SUMS, self._rng.random(), side="right"))]
+
+    def _pieces(self) -> int:
+        if self._sizes:
+            return self._sizes.pieces.draw(self._rng)
+        pieces = round(self._rng.normal(PIECES_MEAN, PIECES_DEVIATION))
+        return min(max(pieces, PIECES_LEAST), PIECES_MOST)
 
     def draw_anew(self, rng: np.random.Generator) -> None:
         """Draws the orders to come by another generator."""
@@ -195,14 +213,16 @@ def make_demand(
     rng: np.random.Generator,
     now: float = 0.0,
     capacity: float = float("inf"),
+    sizes: OrderSizes | None = None,
 ) -> Any:
     """Returns the demand that an orders text of operations.launch or simulate means; raises
     DemandError.
 
     assortment: None: any SKU may be ordered. stations: numbers of (picking, replenishing) ones.
-    now: begin of the demand [s]. capacity: pieces that all bins can hold.
+    now: begin of the demand [s]. capacity: pieces that all bins can hold. sizes: of orders that are
+    drawn by `fill` or `poisson`.
     """
-    customers = Customers(assortment, rng)
+    customers = Customers(assortment, rng, sizes)
     name, _, value = str(text).partition(":")
     if text == "none":
         return FromFile([])

@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from warehouse_operations.goods.kinds import Goods
+
 ROOMY = 12  # pieces, of the largest bundle
 
 
@@ -68,9 +70,20 @@ class Bin:
 
 
 class Inventory:
-    """The bins, by unit and by SKU. Calls on_move(bin, quantity, reason, context) for each move."""
+    """The bins, by unit and by SKU. Calls on_move(bin, quantity, reason, context) for each move.
 
-    def __init__(self, bins: Collection[Bin], on_move: Callable[..., object] | None = None) -> None:
+    goods: the weights of pieces and what each unit holds of them; None: a unit is full by its bins.
+    """
+
+    def __init__(
+        self,
+        bins: Collection[Bin],
+        on_move: Callable[..., object] | None = None,
+        goods: Goods | None = None,
+    ) -> None:
+        self.goods = goods
+        self._load: dict[int, float] = defaultdict(float)  # weight on a unit or expected, by id
+        self._weight = 0.0  # of all pieces
         self.bins = {bin_.bin_id: bin_ for bin_ in bins}
         self.of_unit: dict[int, list[Bin]] = defaultdict(list)
         self._of_sku: dict[str, dict[int, Bin]] = defaultdict(dict)
@@ -101,10 +114,16 @@ class Inventory:
             self._available[bin_.sku] += bin_.available
             self._pieces[self._row[bin_.bin_id]] = bin_.available
             self._measure(bin_)
+        if goods:
+            self.capacity = int(goods.limit / goods.mean_weight)
+            for bin_ in bins:
+                self._add_weight(bin_, bin_.sku, bin_.quantity, there=True)
 
     @property
     def level(self) -> float:
-        """The number of pieces over the capacity of all bins."""
+        """The number of pieces over the capacity of all bins; by weight where units have limits."""
+        if self.goods:
+            return self._weight / self.goods.limit
         return self.total / self.capacity if self.capacity else 0.0
 
     def available(self, sku: str) -> int:
@@ -144,10 +163,36 @@ class Inventory:
 
         The last bin of a SKU is kept for it, or it could never be refilled.
         """
+        if self.goods:
+            has_room = self._weight_fits(bin_.unit, sku, quantity) and bin_.room >= quantity
+            return has_room and (bin_.sku == sku or bin_.empty)
         if bin_.bin_id in self._heirs:
             return bin_.empty and self._heirs[bin_.bin_id] == sku
         may_move_in = bin_.empty and self._kept_for[bin_.sku] > 1
         return bin_.room >= quantity and (bin_.sku == sku or may_move_in)
+
+    def _weight_fits(self, unit: int, sku: str, quantity: int) -> bool:
+        return self.goods is None or quantity * self.goods.weight(sku) <= self.room_on(unit) + 1e-6
+
+    def room_on(self, unit: int) -> float:
+        """Returns the room on a unit, besides what is expected: by weight where units have limits,
+        else the pieces that its bins take."""
+        if self.goods:
+            return self.goods.limits.get(unit, 0.0) - self._load[unit]
+        return sum(bin_.room for bin_ in self.of_unit[unit])
+
+    def bundles_that_fit(self, unit: int) -> float:
+        """Returns how many bundles of a mean weight a unit takes; inf without limits."""
+        if self.goods is None:
+            return float("inf")
+        return round(self.room_on(unit) / self.goods.bundle_weight)
+
+    def _add_weight(self, bin_: Bin, sku: str, quantity: int, there: bool) -> None:
+        """Counts pieces on a unit, or on their way to it."""
+        if self.goods:
+            weight = quantity * self.goods.weight(sku)
+            self._load[bin_.unit] += weight
+            self._weight += weight if there else 0.0
 
     def move(self, bin_: Bin, sku: str, quantity: int, reason: Reason, **context: Any) -> None:
         """Puts pieces into a bin, or takes them out; raises StockError."""
@@ -161,6 +206,7 @@ class Inventory:
             self._rename(bin_, sku)
         bin_.quantity += quantity
         self.total += quantity
+        self._add_weight(bin_, bin_.sku, quantity, there=True)
         self._available[bin_.sku] += quantity
         self._pieces[self._row[bin_.bin_id]] += quantity
         self._index(bin_)
@@ -222,9 +268,9 @@ class Inventory:
 
     def house(self, skus: Iterable[str]) -> None:
         """Gives each SKU that has lost all its bins the emptiest bin of a SKU with several; that
-        bin is not refilled before it is empty."""
+        bin is not refilled before it is empty. Where units have limits, bins are of no SKU."""
         for sku in skus:
-            if self._kept_for[sku]:
+            if self._kept_for[sku] or self.goods:
                 continue
             free = (b for b in self.bins.values() if b.bin_id not in self._heirs)
             bins = [bin_ for bin_ in free if self._kept_for[bin_.sku] > 1 and bin_.fallen is None]
@@ -244,7 +290,7 @@ class Inventory:
             self.pick_up(bin_)
         if bin_.quantity:
             self.move(bin_, bin_.sku, -bin_.quantity, Reason.GONE)
-        self.capacity -= bin_.capacity
+        self.capacity -= 0 if self.goods else bin_.capacity
         self._kept_for[bin_.sku] -= 1
         self._forget_room(bin_)
         self.empty.pop(bin_.bin_id, None)
@@ -255,6 +301,7 @@ class Inventory:
 
     def _expect(self, bin_: Bin, sku: str, quantity: int) -> None:
         bin_.expected += quantity
+        self._add_weight(bin_, sku, quantity, there=False)
         self.expected += quantity
         self._incoming[sku] += quantity
         self._measure(bin_)

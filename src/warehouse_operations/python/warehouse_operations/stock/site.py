@@ -12,6 +12,8 @@ from warehouse_layout.file.item_weights import ItemWeights
 from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.place.layout import Layout
+from warehouse_operations.goods.kinds import Goods
+from warehouse_operations.goods.order_sizes import OrderSizes
 from warehouse_operations.stock.assortment import INITIAL_LEVEL
 from warehouse_operations.stock.settings import Settings
 
@@ -41,6 +43,8 @@ class Site:
     skus: int | None = None  # number of SKUs; None: by the number of bins
     level: float = INITIAL_LEVEL  # of the stock at first, over its room
     stock: Sequence[Stock] = ()  # at first, bin by bin; (): drawn by chance
+    goods: Goods | None = None  # SKUs and units that are full by weight; None: by their bins
+    sizes: OrderSizes | None = None  # of drawn orders; None: RAWSim-O's usual ones
     weights: ItemWeights | None = None  # of the items by their SKUs; None: as their model
 
     @classmethod

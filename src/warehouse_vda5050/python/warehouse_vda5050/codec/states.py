@@ -5,6 +5,7 @@ from typing import Any
 
 from warehouse_vda5050.codec.base import header_json, without_nothing
 from warehouse_vda5050.codec.orders import enum_of, position_json, read_position
+from warehouse_vda5050.codec.paths import read_intermediate, read_planned
 from warehouse_vda5050.codec.zones import read_zone_request, read_zone_set_state
 from warehouse_vda5050.errors import Error, ErrorLevel
 from warehouse_vda5050.model import (
@@ -121,7 +122,7 @@ def visualization_json(message: Visualization) -> dict[str, Any]:
 
 def read_state(fields: Fields, header: Header) -> VehicleState:
     """Returns a state; what a vehicle leaves out has its default. Raises MessageError."""
-    fields.skip("zoneSetId", "plannedPath", "intermediatePath", "information", "maps")
+    fields.skip("zoneSetId", "information", "maps")
     fields.skip("edgeRequests", "zoneActionStates")
     safety, battery = fields.object("safetyState") or Fields({}), fields.object("batteryState")
     state = VehicleState(
@@ -145,6 +146,8 @@ def read_state(fields: Fields, header: Header) -> VehicleState:
         safety.flag("fieldViolation", False),
         distance_since_last_node=fields.number("distanceSinceLastNode", None),
         zone_sets=tuple(map(read_zone_set_state, fields.objects("zoneSets", ()))),
+        planned=read_planned(fields.object("plannedPath")),
+        intermediate=read_intermediate(fields.object("intermediatePath")),
         zone_requests=tuple(map(read_zone_request, fields.objects("zoneRequests", ()))),
         header=header,
     )

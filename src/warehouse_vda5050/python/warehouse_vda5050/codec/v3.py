@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+from warehouse_vda5050.codec.paths import paths_json
 from warehouse_vda5050.codec.v2 import CodecV2
 from warehouse_vda5050.codec.zones import (
     read_responses,
@@ -140,7 +141,7 @@ class CodecV3(CodecV2):
         value = self.newer(kind, super().to_json(message))
         if isinstance(message, VehicleState):
             _part_actions(value, message.actions)
-            value |= zones_of_state_json(message)
+            value |= {**zones_of_state_json(message), **paths_json(message)}
             for row, error in zip(value["errors"], message.errors):
                 _write_error(row, error)
         if isinstance(message, Visualization):

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from warehouse_vda5050.errors import ErrorLevel
 from warehouse_vda5050.master.frame import Frame, Pose
 from warehouse_vda5050.model import ConnectionState, OperatingMode, VehicleState
+from warehouse_vda5050.paths import sampled
 
 SILENT = 45.0  # [s] without a state: vehicles send one at least each 30 s
 TAKES_ORDERS = (OperatingMode.AUTOMATIC, OperatingMode.SEMIAUTOMATIC)
@@ -71,6 +72,13 @@ class VehicleView:
         """The map that it says it is on."""
         at = self.state.position if self.state else None
         return at.map_id if at else ""
+
+    @property
+    def planned_path(self) -> list[tuple[float, float]]:
+        """Where it says that it will drive, in the frame world [m]; [] if it does not say."""
+        planned = self.state.planned if self.state else None
+        points = sampled(planned.trajectory) if planned else []
+        return [self.frame.to_world(x, y)[:2] for x, y in points]
 
     @property
     def is_localized(self) -> bool:

@@ -20,6 +20,7 @@ from warehouse_vda5050.model import (
     Velocity,
     Visualization,
 )
+from warehouse_vda5050.paths import PlannedPath, Waypoint
 from warehouse_vda5050.vehicle.progress import OrderProgress
 from warehouse_vda5050.vehicle.settings import VehicleSettings
 from warehouse_vda5050.zones.zone import ZoneRequest, ZoneSetState
@@ -40,6 +41,8 @@ class Situation:
     errors: tuple[Error, ...]
     zone_sets: tuple[ZoneSetState, ...] = ()
     zone_requests: tuple[ZoneRequest, ...] = ()
+    planned: PlannedPath | None = None
+    intermediate: tuple[Waypoint, ...] = ()
 
 
 class StateReporter:
@@ -105,6 +108,8 @@ class StateReporter:
             maps=(MAP_ID,),
             zone_sets=situation.zone_sets,
             zone_requests=situation.zone_requests,
+            planned=situation.planned,
+            intermediate=situation.intermediate,
         )
         if situation.report is None:
             return state
@@ -180,5 +185,11 @@ def _lasting(state: VehicleState) -> VehicleState:
     known = position and replace(position, x=0.0, y=0.0, theta=0.0)
     battery = Battery(0.0, state.battery.charging)
     return replace(
-        state, position=known, velocity=None, battery=battery, distance_since_last_node=None
+        state,
+        position=known,
+        velocity=None,
+        battery=battery,
+        distance_since_last_node=None,
+        planned=None,
+        intermediate=(),
     )

@@ -7,6 +7,8 @@ vehicle.update(now)                # ten times a second
 state = vehicle.take_state(now)    # to be sent, None if there is nothing new
 """
 
+from typing import Any
+
 from warehouse_vda5050.driver import Driver, Report
 from warehouse_vda5050.errors import Error, ErrorType
 from warehouse_vda5050.grid import Cell, Grid
@@ -31,6 +33,7 @@ from warehouse_vda5050.vehicle.complaints import Complaints, of_order
 from warehouse_vda5050.vehicle.hands import Hands
 from warehouse_vda5050.vehicle.instant import InstantDesk
 from warehouse_vda5050.vehicle.journal import Journal
+from warehouse_vda5050.vehicle.outlook import intermediate_path, planned_path
 from warehouse_vda5050.vehicle.phase import FOLLOWS, Phase
 from warehouse_vda5050.vehicle.progress import OrderProgress
 from warehouse_vda5050.vehicle.reception import TAKING_ORDERS, Reception
@@ -327,6 +330,17 @@ class Vehicle:
         """Returns the state as it is now."""
         return self._reporter.state(self._situation())
 
+    def _outlook(self, report: Report) -> dict[str, Any]:
+        """Where the vehicle will drive, for a state of 3.0."""
+        order = self._driven_order
+        if self.zones is None or order is None:
+            return {}
+        planned = planned_path(order, self.grid, report)
+        limit, wall = self.zones.limit, self.zones.clock()
+        held = self.paused or self.actions.holds_driving or bool(self.wheels.fault)
+        soon = () if held else intermediate_path(order, self.grid, report, self.sheet, limit, wall)
+        return {"planned": planned, "intermediate": soon}
+
     def _situation(self) -> Situation:
         return Situation(
             self.report,
@@ -338,6 +352,7 @@ class Vehicle:
             errors=self.errors(),
             zone_sets=self.zones.store.states() if self.zones else (),
             zone_requests=self.zones.releases.states() if self.zones else (),
+            **(self._outlook(self.report) if self.report else {}),
         )
 
     def errors(self) -> tuple[Error, ...]:

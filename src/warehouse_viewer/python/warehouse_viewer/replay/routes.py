@@ -37,12 +37,16 @@ class Recording(Protocol):
 
 
 class RecordingRoutes:
-    """Serves a Recording. newest: returns the chunk that still grows, if there is one."""
+    """Serves a Recording. newest: returns the chunk that still grows, if there is one. forecasts:
+    whether they can be asked for from its moments."""
 
     def __init__(
-        self, recording: Recording, newest: Callable[[], Chunk | None] | None = None
+        self,
+        recording: Recording,
+        newest: Callable[[], Chunk | None] | None = None,
+        forecasts: bool = False,
     ) -> None:
-        self._recording, self._newest = recording, newest
+        self._recording, self._newest, self._forecasts = recording, newest, forecasts
 
     def routes(self) -> list[Route]:
         """Returns the routes, to be added to an application."""
@@ -60,6 +64,7 @@ class RecordingRoutes:
             "live": self._newest is not None,
             "about": self._recording.about,
             "cut": self._recording.cut,
+            "forecasts": self._forecasts,
             "open": newest.number if newest else 0,
         }
         chunks += [newest] if newest else []

@@ -10,6 +10,7 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from warehouse_viewer.json_text import JSONResponse
+from warehouse_viewer.replay.forecasts import RecordedForecasts
 from warehouse_viewer.replay.routes import Recording, RecordingRoutes
 from warehouse_viewer.server.site import FLOOR, Site
 from warehouse_viewer.server.sockets import SocketLimit
@@ -17,8 +18,9 @@ from warehouse_viewer.server.sockets import SocketLimit
 RECORDED = "this is a recording: it can be watched, and not commanded"
 
 
-def application(recording: Recording) -> Starlette:
-    """Returns the ASGI application with the floor's page and the recording."""
+def application(recording: Recording, forecasts: RecordedForecasts | None = None) -> Starlette:
+    """Returns the ASGI application with the floor's page and the recording, and forecasts from its
+    moments."""
     sockets = SocketLimit()
 
     async def live(socket: WebSocket) -> None:
@@ -27,7 +29,8 @@ def application(recording: Recording) -> Starlette:
     return Starlette(
         routes=[
             WebSocketRoute("/live", live),
-            *RecordingRoutes(recording).routes(),
+            *RecordingRoutes(recording, forecasts=bool(forecasts)).routes(),
+            *(forecasts.routes() if forecasts else ()),
             *Site(FLOOR).routes(),
             Route("/{path:path}", _refuse, methods=["GET", "POST", "PUT", "DELETE"]),
         ]

@@ -16,7 +16,7 @@ export class Recording {
     this.marks = []; // {time, kind, model, text}
     this.loaded = new Map(); // promises by chunk's number
     this.scenes = new Map(); // promises by number
-    Object.assign(this, { id: '', live: false, begin: 0, end: 0, open: 0, about: {}, cut: '' });
+    Object.assign(this, { id: '', live: false, begin: 0, end: 0, open: 0, about: {}, cut: '', forecasts: false });
   }
 
   /** Fetches the index; false if the server keeps no recording. */

@@ -5,6 +5,7 @@ import { $, on, press, setIcon } from '../base/dom.js';
 import { number } from '../language/numbers.js';
 import { tr } from '../language/texts.js';
 import { clock, wallClock } from '../base/time.js';
+import { ForecastFromHere } from './forecast.js';
 import { freeze } from './frozen.js';
 import { linkTo, lookOf, momentOf, timeOf, wallAt } from './link.js';
 import { Player } from './player.js';
@@ -32,6 +33,7 @@ export class Timeline {
     on($('replay-speed'), 'change', () => { this.player.speed = Number($('replay-speed').value); });
     on($('replay-live'), 'click', () => this.goLive());
     on($('replay-copy'), 'click', () => this.copy());
+    this.ahead = new ForecastFromHere(() => this.player.time);
     on(window, 'hashchange', () => this.follow());
     on(window, 'keydown', (event) => this.onKey(event));
     this.start();
@@ -68,6 +70,7 @@ export class Timeline {
   /** A recording has nothing live to show. */
   async begin() {
     $('replay-live').hidden = true;
+    $('replay-forecast').hidden = !this.recording.forecasts;
     const { about, cut } = this.recording;
     $('warehouse').textContent = about.name ?? tr`Recording`;
     document.title = tr`${about.name ?? tr`Recording`} – recording`;

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A fork is the shift that it is of; runs from it are repeatable, and changes change them."""
 
+import contextlib
 import math
 import os
 import signal
@@ -22,6 +23,7 @@ from warehouse_operations.forecast import (
     fork,
     pacing,
     request,
+    running,
     worker,
     workers,
 )
@@ -162,6 +164,43 @@ def test_an_ideal_fork_takes_each_motion_up_where_it_was():
         assert expected and {n: left[n] for n in expected} == pytest.approx(expected)
 
 
+def test_simulated_robots_go_on_from_a_checkpoint_of_their_world():
+    with opened(physics=True) as ops:
+        ops.run(minutes=4)
+        digest, done = ops.fleet.state_hash(), ops.context.tally.orders_completed
+        forked = running.fork_of(ops, physics=True)
+        asked = Request(8, 2, physics=True)
+        (task,) = request.tasks_of(asked, ops.site, ops.shift, forked)
+        with contextlib.closing(ahead.Ahead(task, 0)) as copy:
+            steps = {each.number: each.step for each in ops.fleet.transports.book}
+            assert {each.number: each.step for each in copy.fleet.transports.book} == steps
+            assert copy.fleet.state_hash() == digest
+            copy.step_until(ops.time + 900)
+            assert not steps.keys() & {each.number for each in copy.fleet.transports.book}
+            assert (copy.fleet.collisions, copy.fleet.stuck) == (0, 0)
+        assert ops.fleet.state_hash() == digest
+        (forecast,) = running.forecasts(ops, asked)
+        ends = [ahead.run(task, number).done[-1] for number in (0, 1)]
+        assert forecast.bands["done"][1, -1] == pytest.approx(np.mean(ends))
+        ops.run(minutes=8)
+        happened = ops.context.tally.orders_completed - done
+        assert 0.6 * min(ends) < happened < 1.6 * max(ends)
+
+
+@pytest.mark.parametrize(
+    ("line", "text"),
+    [
+        ("+0 robots +2", "simulated robots are those of the checkpoint"),
+        ("+0 speed 80%", "simulated ones have that of their model"),
+    ],
+)
+def test_what_simulated_robots_can_not_do_is_refused(line, text):
+    with opened(physics=True) as ops:
+        ops.run(seconds=60)
+        with pytest.raises(ForecastError, match=text):
+            running.forecasts(ops, Request(changes=(line,), physics=True))
+
+
 def test_equal_seed_equal_forecast_and_another_run_another_one(shift):
     task = a_task(shift)
     first, again, other = ahead.run(task, 0), ahead.run(task, 0), ahead.run(task, 1)
@@ -204,6 +243,15 @@ def test_robots_are_added_and_taken_away(shift):
         (Request(0), "minutes is 0; above 0"),
         (Request(runs=2000), "runs is 2000; 0 (by time) to 1000 was expected"),
         (Request(changes=("+0 close pick1",) * 51), "51 changes; 50 or fewer were expected"),
+        (
+            Request(changes=("+0 close pick1\n+0 open",)),
+            "a line of up to 200 characters was expected",
+        ),
+        (
+            Request(changes=("+0 close " + "p" * 300,)),
+            "a line of up to 200 characters was expected",
+        ),
+        (Request(physics=True), "simulated robots need a checkpoint of their world"),
     ],
 )
 def test_what_can_not_be_is_refused_in_a_sentence(asked, text):

@@ -23,12 +23,14 @@ from sample_messages import World, fleet, objects, scenery, states
 from std_msgs.msg import Header
 
 from warehouse_msgs.msg import Event
+from warehouse_operations.forecast.request import ForecastError
 from warehouse_viewer.page import protocol
 from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.replay import blocks, chunk
 from warehouse_viewer.replay.blocks import RecordingError
 from warehouse_viewer.replay.chunk import Chunk, Mark, messages, unpacked
 from warehouse_viewer.replay.file import NAME, FileRecording, FileWriter
+from warehouse_viewer.replay.forecasts import RecordedForecasts, asked_of
 from warehouse_viewer.replay.live import LiveRecording
 from warehouse_viewer.replay.memory import MemoryStore
 from warehouse_viewer.replay.opening import open_recording
@@ -411,6 +413,58 @@ def faults_on_a_phone(url):
         assert page.read("page.signs.queues.pick1") >= 1 and not page.read("page.signs.changes")
         assert page.read("page.fleet.runs") and not page.read(WAYS)
         return page.complaints() + (axe.findings(page) if axe.is_there() else [])
+
+
+def test_a_forecast_begins_at_the_moment_of_the_slider(tmp_path):
+    done = run("simulate", "--size", "small", "--minutes", 3, "--record", "--out", tmp_path)
+    assert done.returncode == 0, done.stderr
+    command = [sys.executable, NODES / "replay", tmp_path, "--port", "0", "--no-browser"]
+    with (
+        subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server,
+        browser(PATIENCE, (1280, 800)) as page,
+    ):
+        try:
+            page.open(server.stdout.readline().split()[4] + "#t=120")
+            page.until("page.timeline.player.chunk && page.timeline.player.time === 120")
+            page.click_on("replay-forecast")
+            page.until("document.getElementById('ahead-table').checkVisibility()")
+            assert page.read(f"{TITLE}.textContent") == "Forecast from 0:02:00"
+            assert page.read(f"{AHEAD}.length") == 6
+            assert page.read(f"{AHEAD}[0].cells[0].textContent") == "0:12:00"
+            assert "orders done within 60 minutes" in page.read(f"{TEXT}.textContent")
+            page.type("+0 close pick9", "ahead-change")
+            page.click_on("ahead-look")
+            page.until(f"{TEXT}.textContent.includes('pick9; there are pick1')")
+            assert not page.read("document.getElementById('ahead-table').checkVisibility()")
+            assert page.complaints() == []
+        finally:
+            server.send_signal(signal.SIGINT)
+
+
+TITLE, TEXT = "document.getElementById('ahead-title')", "document.getElementById('ahead-text')"
+AHEAD = "document.getElementById('ahead-table').tBodies[0].rows"
+
+
+@pytest.mark.parametrize(
+    ("body", "text"),
+    [
+        (b"[1]", "a JSON object with at, minutes, runs, changes was expected"),
+        (b"{", "a JSON object with at, minutes, runs, changes was expected"),
+        (b'{"at": 1, "until": 2}', "until is unknown: a JSON object with at, minutes,"),
+        (b"{}", r"at has to be the time of the shift \[s\]"),
+        (b'{"at": true}', r"at has to be the time of the shift \[s\]"),
+        (b'{"at": 1, "minutes": "an hour"}', "minutes has to be a number"),
+        (b'{"at": 1, "runs": 1.5}', "runs is 1.5; a whole number was expected"),
+        (b'{"at": 1, "changes": "close pick1"}', "changes has to be a list of events"),
+    ],
+)
+def test_a_forecast_that_can_not_be_asked_for_says_what_was_expected(body, text):
+    with pytest.raises(ForecastError, match=text):
+        asked_of(body)
+
+
+def test_a_recording_without_its_database_offers_no_forecast(file):
+    assert RecordedForecasts.beside(file) is None
 
 
 def test_ideal_robots_are_not_recorded(tmp_path):
