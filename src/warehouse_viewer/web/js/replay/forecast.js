@@ -2,8 +2,9 @@
 // What would come of a recorded shift from the moment of the time line on.
 
 import { $, make, on } from '../base/dom.js';
-import { number } from '../base/numbers.js';
 import { ask } from '../base/request.js';
+import { number } from '../language/numbers.js';
+import { tr } from '../language/texts.js';
 import { clock } from '../base/time.js';
 
 const LOOK = 500; // between two looks for the result [ms]
@@ -12,7 +13,8 @@ const ROWS = 6;
 /** [{at, done, open, late}] of a forecast at ROWS times, each as text. */
 export function rowsOf({ time, done, open, late }, rows = ROWS) {
   const at = Array.from({ length: rows }, (_, row) => Math.round((row + 1) * time.length / rows) - 1);
-  const cell = (band, i) => `${number(Math.round(band.p50[i]))} (${number(Math.round(band.p10[i]))} to ${number(Math.round(band.p90[i]))})`;
+  const whole = (value) => number(Math.round(value));
+  const cell = ({ p10, p50, p90 }, i) => tr`${whole(p50[i])} (${whole(p10[i])} to ${whole(p90[i])})`;
   return [...new Set(at)].filter((i) => i >= 0).map((i) => ({
     at: clock(time[i]), done: cell(done, i), open: cell(open, i), late: cell(late, i) }));
 }
@@ -32,7 +34,7 @@ export class ForecastFromHere {
 
   open() {
     this.at = this.moment();
-    $('ahead-title').textContent = `Forecast from ${clock(this.at)}`;
+    $('ahead-title').textContent = tr`Forecast from ${clock(this.at)}`;
     this.say('');
     $('ahead').showModal();
     this.make();
@@ -41,7 +43,7 @@ export class ForecastFromHere {
   /** A later wish counts. */
   async make() {
     const turn = ++this.asked, change = $('ahead-change').value.trim();
-    this.say('looks ahead for about 20 s …');
+    this.say(tr`looks ahead for about 20 s …`);
     try {
       const wish = { at: this.at, minutes: Number($('ahead-minutes').value), changes: change ? [change] : [] };
       let forecast = await ask('POST', '/api/v1/forecasts', wish);
@@ -56,7 +58,7 @@ export class ForecastFromHere {
   }
 
   show({ state, text, runs, ...bands }) {
-    this.say(state === 'REPLACED' ? 'another page asked for a newer forecast' : `${text[0].toUpperCase()}${text.slice(1)}.`);
+    this.say(state === 'REPLACED' ? tr`another page asked for a newer forecast` : `${text[0].toUpperCase()}${text.slice(1)}.`);
     if (!runs) return;
     const rows = rowsOf(bands).map((row) => make('tr', {}, ...Object.values(row).map((textContent) => make('td', { textContent }))));
     $('ahead-table').tBodies[0].replaceChildren(...rows);
