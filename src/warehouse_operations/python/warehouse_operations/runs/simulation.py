@@ -166,7 +166,8 @@ def _jams(path: str, site: Site) -> str:
     if site.plan.spacing < file_check.LEAST_SPACING:
         return (
             f"{path}: waypoints are {site.plan.spacing:g} m apart;"
-            f" {file_check.LEAST_SPACING:g} m or more were expected: a storage unit that turns needs it beside another one"
+            f" {file_check.LEAST_SPACING:g} m or more were expected: a storage"
+            " unit that turns needs it beside another one"
         )
     return ""
 
