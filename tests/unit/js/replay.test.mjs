@@ -188,7 +188,7 @@ test('a forecast has a row for each sixth of its time', () => {
   const time = Array.from({ length: 60 }, (_, i) => 120 + 60 * (i + 1));
   const band = { p10: time.map(() => 1), p50: time.map((_, i) => 1000 + i), p90: time.map(() => 3.4) };
   const rows = rowsOf({ time, done: band, open: band, late: band });
-  assert.deepEqual(rows.map(({ at }) => at), ['0:12:00', '0:22:00', '0:32:00', '0:42:00', '0:52:00', '1:02:00']);
+  assert.deepEqual(rows.map((row) => row.at), ['0:12:00', '0:22:00', '0:32:00', '0:42:00', '0:52:00', '1:02:00']);
   assert.match(rows[5].done, /^1.?059 \(1 to 3\)$/);
   assert.equal(rowsOf({ time: [60], done: band, open: band, late: band }).length, 1);
 });

@@ -163,6 +163,12 @@ def _jams(path: str, site: Site) -> str:
         site.plan.check()
     except FloorError as error:
         return f"{path}: {error}"
+    if site.plan.spacing < file_check.LEAST_SPACING:
+        return (
+            f"{path}: waypoints are {site.plan.spacing:g} m apart;"
+            f" {file_check.LEAST_SPACING:g} m or more were expected: a storage"
+            " unit that turns needs it beside another one"
+        )
     return ""
 
 

@@ -30,6 +30,11 @@ export class Drawers {
     return $(id).classList.contains('open');
   }
 
+  /** Whether the window has room for one drawer alone. */
+  get isNarrow() {
+    return NARROW.matches;
+  }
+
   toggle(id) {
     if (this.isOpen(id)) this.close(id);
     else this.open(id);

@@ -116,6 +116,8 @@ export class FirstSteps {
   /** Shows what is where; `isFirst`: only to a person who has not closed it yet. */
   async tour(isFirst = false) {
     if (isFirst && localStorage.getItem(TOURED)) return;
+    const { drawers } = this.page;
+    if (drawers.isNarrow) drawers.close('start-panel'); // the tour is about what it covers
     const { Tour } = await import('./tour.js');
     this.shown ??= new Tour(() => localStorage.setItem(TOURED, 'yes'));
     if (!isFirst || !$('tour')?.checkVisibility()) this.shown.begin();

@@ -3,19 +3,20 @@
 
 import { $, make, on } from '../base/dom.js';
 import { ask } from '../base/request.js';
+import { clock } from '../base/time.js';
 import { number } from '../language/numbers.js';
 import { tr } from '../language/texts.js';
-import { clock } from '../base/time.js';
 
 const LOOK = 500; // between two looks for the result [ms]
 const ROWS = 6;
 
+const whole = (value) => number(Math.round(value));
+const cell = ({ p10, p50, p90 }, i) => tr`${whole(p50[i])} (${whole(p10[i])} to ${whole(p90[i])})`;
+
 /** [{at, done, open, late}] of a forecast at ROWS times, each as text. */
 export function rowsOf({ time, done, open, late }, rows = ROWS) {
-  const at = Array.from({ length: rows }, (_, row) => Math.round((row + 1) * time.length / rows) - 1);
-  const whole = (value) => number(Math.round(value));
-  const cell = ({ p10, p50, p90 }, i) => tr`${whole(p50[i])} (${whole(p10[i])} to ${whole(p90[i])})`;
-  return [...new Set(at)].filter((i) => i >= 0).map((i) => ({
+  const shown = Array.from({ length: rows }, (_, row) => Math.round((row + 1) * time.length / rows) - 1);
+  return [...new Set(shown)].filter((i) => i >= 0).map((i) => ({
     at: clock(time[i]), done: cell(done, i), open: cell(open, i), late: cell(late, i) }));
 }
 

@@ -264,6 +264,14 @@ def test_a_wrong_file_of_skus_is_refused(tmp_path, old, new, message):
     assert str(error.value).startswith(str(tmp_path / "three.xgenc"))
 
 
+def test_a_floor_too_narrow_for_bodies_is_refused_with_physics(tmp_path):
+    path = str(write_instance(tmp_path / "a.xinst", spacing=0.45))
+    with pytest.raises(InstanceError, match="waypoints are 0.45 m apart; 0.97 m or more"):
+        open_operations(Description(instance=path))
+    (remark,) = simulation.remarks(Description(instance=path, physics=False))
+    assert remark.endswith("ideal robots, which pass through each other, work there")
+
+
 def test_pods_too_small_for_any_bundle_are_refused(tmp_path):
     with pytest.raises(InstanceError, match="fits on a pod of Capacity 7; a Capacity for the"):
         open_operations(small_pods(tmp_path, 7, ""))
