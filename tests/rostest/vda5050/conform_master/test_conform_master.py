@@ -27,7 +27,7 @@ ATTENTION = 15.0  # time that an operator leaves a robot MANUAL [s]
 # Some of each kind of accident, and whatever judges the messages of the run.
 TRIED = (
     *("modes.manual", "modes.fatal", "modes.pushed", "errors.order", "errors.goes_on"),
-    *("states.stale", "horizon.base_request", "horizon.no_horizon_left"),
+    *("states.stale", "horizon"),
     *("connection", "limits", "actions", "instant", "order", "update", "messages"),
 )
 # What a warehouse at work does not come to by itself: no person cancels and pauses; and for a while

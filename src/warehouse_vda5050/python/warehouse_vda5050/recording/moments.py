@@ -56,7 +56,7 @@ class Timeline(Generic[Item]):
         self._items: list[Item] = []
 
     def add(self, time: float, item: Item) -> None:
-        """Adds a value; a time before the last one counts as that, as after a clock was set back."""
+        """Adds a value; a time before the last one, after a clock was set back, counts as that."""
         self._times.append(max(time, self._times[-1]) if self._times else time)
         self._items.append(item)
 
