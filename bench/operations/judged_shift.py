@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A simulated shift by which forecasts are judged: its forks, and what happened after them."""
 
+import hashlib
 import pickle
 import tempfile
 import time
@@ -24,6 +25,7 @@ CLOSES_AT = 40  # [min]
 SKUS = {"medium": 200, "large": 1000}
 NEAR_BOUND = {"medium": 820, "large": 1900}  # orders an hour
 DAY = {"medium": (500, 600, 900, 1300, 900, 500), "large": (1200, 1400, 2000, 2800, 2000, 1200)}
+OF_RUNS = ("forecast", "fleets")  # rooms whose objects are those of a run
 INTERVAL = 20  # [min] of each rate of DAY
 
 Forked = tuple[Fork, dict[int, float], float]
@@ -57,7 +59,7 @@ class JudgedShift:
 
 def shift_of(case: Case, minutes: Sequence[int], folder: Path | None, show: Show) -> JudgedShift:
     """Returns a shift with forks at some minutes: from a folder, or simulated, and kept there."""
-    path = folder / f"{'-'.join(map(str, case))}.shift" if folder else None
+    path = folder / f"{'-'.join(map(str, case))}-{_version()}.shift" if folder else None
     if path and path.exists():
         kept: JudgedShift = pickle.loads(zlib.decompress(path.read_bytes()))
         if kept.forks.keys() >= set(minutes):
@@ -67,6 +69,17 @@ def shift_of(case: Case, minutes: Sequence[int], folder: Path | None, show: Show
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(zlib.compress(pickle.dumps(shift, fork.PROTOCOL), 1))
     return shift
+
+
+def _version() -> str:
+    """Returns a digest of the code whose objects a kept shift has. Those of runs are not kept."""
+    source, digest = Path(fork.__file__).parents[1], hashlib.blake2b(digest_size=4)
+    files = [Path(fork.__file__), Path(fleet_now.__file__)]
+    for room in sorted(source.iterdir()):
+        files += sorted(room.glob("*.py")) if room.name not in OF_RUNS else []
+    for path in files:
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
 
 
 def simulated(case: Case, minutes: Sequence[int], show: Show) -> JudgedShift:
