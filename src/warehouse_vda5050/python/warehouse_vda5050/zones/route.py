@@ -48,7 +48,7 @@ class Stretch:
         return self.turns and is_near(zone.vertices, self.start, radius)
 
     def is_forbidden(self, zone: Zone) -> bool:
-        """Returns whether a zone keeps the robot off this way, whoever may release it."""
+        """Returns whether a zone keeps the robot off this way: no release opens it."""
         if zone.type is ZoneType.BLOCKED:
             return self.enters(zone)
         if zone.type not in (ZoneType.DIRECTED, ZoneType.BIDIRECTED) or zone.word == "SOFT":
