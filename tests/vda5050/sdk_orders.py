@@ -45,8 +45,8 @@ def order(serial, way, action=None):
         actions = [action] if action and i == len(way) - 1 else []
         released = i < AHEAD
         builder.add_node(name(serial, k), released=released, actions=actions, **place(serial, k))
-    for i, (a, b) in enumerate(itertools.pairwise(way)):
-        a, b = name(serial, a), name(serial, b)
+    names = [name(serial, k) for k in way]
+    for i, (a, b) in enumerate(itertools.pairwise(names)):
         builder.add_edge(a, b, edge_id=f"{a}-{b}", released=i + 1 < AHEAD)
     return builder.build()
 
