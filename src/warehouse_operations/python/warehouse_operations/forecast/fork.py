@@ -43,7 +43,7 @@ class Fork:
     """A shift at a time [s], and its fleet. shift: as bytes. began: its begin [s]. ways_back: how
     long units took back into storage lately [s]. recent: orders like which others come, where
     nothing else says what comes. pace: of robots from now on. world: a checkpoint, for simulated
-    robots; empty: there is none."""
+    robots; empty: they are ideal."""
 
     time: float
     began: float

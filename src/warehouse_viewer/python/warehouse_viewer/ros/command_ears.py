@@ -27,8 +27,8 @@ class CommandEars:
         self._subscribers: list[Any] = []
 
     def begin(self) -> None:
-        """Listens from now on. Call it once the world is there: who waits for an ear before it
-        commands waits for the world's."""
+        """Listens from now on. Call it once the world is there: a program that waits for a listener
+        before it commands waits for the world."""
         if self._subscribers:
             return
         self._subscribers = [
