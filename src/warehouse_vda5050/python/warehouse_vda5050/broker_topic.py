@@ -75,7 +75,9 @@ def masters_message(vehicles: Iterable[RemoteVehicle], broker: str, now: float) 
             Vda5050.CONNECTIONBROKEN if silent else CONNECTIONS[view.connection]
         )
         message.order.append(vehicle.order_id)
-        message.errors.append(_text(view.state.errors if view.state else ()))
+        errors = _text(view.state.errors if view.state else ())
+        lines = [*errors.splitlines(), *(f"factsheet: {why}" for why in vehicle.sheet_faults)]
+        message.errors.append("\n".join(lines))
         message.driven.append(not vehicle.is_idle)
         message.faults.append("")
     return message

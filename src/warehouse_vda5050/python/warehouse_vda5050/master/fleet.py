@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.master.commands import Cancel, Command, Stop
+from warehouse_vda5050.master.load_fit import Measure, unknown
 from warehouse_vda5050.master.remote_vehicle import Happened, RemoteVehicle
 from warehouse_vda5050.master.robots_file import RemoteRobot
 from warehouse_vda5050.master.shadow import Shadow, shadow_of
@@ -12,6 +13,7 @@ from warehouse_vda5050.master.zone_desk import ClosedArea, ZoneDesk
 from warehouse_vda5050.model import (
     Connection,
     Factsheet,
+    InvalidFactsheet,
     ToVehicle,
     VehicleState,
 )
@@ -22,12 +24,19 @@ ALL = 0  # the number that stands for every robot in a Stop
 
 class RemoteFleet:
     """The vehicles of a file of robots. One thread at a time. zones: whether they may keep to zone
-    sets, which 3.0 alone has."""
+    sets, which 3.0 alone has; `measure` returns a storage unit's measures."""
 
     def __init__(
-        self, robots: Iterable[RemoteRobot], grid: Grid, run: str, zones: bool = False
+        self,
+        robots: Iterable[RemoteRobot],
+        grid: Grid,
+        run: str,
+        zones: bool = False,
+        measure: Measure = unknown,
     ) -> None:
-        self._vehicles = {robot.number: RemoteVehicle(robot, grid, run) for robot in robots}
+        self._vehicles = {
+            robot.number: RemoteVehicle(robot, grid, run, measure) for robot in robots
+        }
         self._zones = {
             vehicle.robot.identity: ZoneDesk(vehicle.robot, vehicle.view, run, grid.spacing)
             for vehicle in (self._vehicles.values() if zones else ())
@@ -52,8 +61,16 @@ class RemoteFleet:
         elif kiva_id in self._vehicles:
             self._vehicles[kiva_id].command(command)
 
+    def expect_unit(self, kiva_id: int, unit: int) -> None:
+        """Lets a vehicle say that it can't carry a unit that it is to fetch."""
+        if kiva_id in self._vehicles:
+            self._vehicles[kiva_id].expect_unit(unit)
+
     def take(
-        self, identity: Identity, message: VehicleState | Connection | Factsheet, now: float
+        self,
+        identity: Identity,
+        message: VehicleState | Connection | Factsheet | InvalidFactsheet,
+        now: float,
     ) -> None:
         """Takes a vehicle's message; drops those of vehicles that are in no file."""
         vehicle = self._by_identity.get(identity)
@@ -64,6 +81,8 @@ class RemoteFleet:
             vehicle.take_state(message, now)
             if zones and vehicle.view.state is message:
                 zones.take_state(message)
+        elif isinstance(message, InvalidFactsheet):
+            vehicle.refuse_factsheet(message.fault)
         elif isinstance(message, Factsheet):
             vehicle.take_factsheet(message)
             if zones:

@@ -10,6 +10,7 @@ from warehouse_vda5050.model import (
     Connection,
     Factsheet,
     InstantActions,
+    InvalidFactsheet,
     Responses,
     ToVehicle,
     VehicleOrder,
@@ -18,6 +19,7 @@ from warehouse_vda5050.model import (
 )
 from warehouse_vda5050.mqtt.loop import Link, Outgoing
 from warehouse_vda5050.mqtt.settings import BrokerSettings
+from warehouse_vda5050.schemas.factsheet_faults import factsheet_faults
 from warehouse_vda5050.topics import Identity, Kind, TopicError, Topics
 from warehouse_vda5050.validation import MessageError
 
@@ -29,7 +31,7 @@ KINDS: dict[type, Kind] = {
     ZoneSet: Kind.ZONE_SET,
     Responses: Kind.RESPONSES,
 }
-FromVehicle = VehicleState | Connection | Factsheet
+FromVehicle = VehicleState | Connection | Factsheet | InvalidFactsheet
 
 
 class MasterLink:
@@ -68,8 +70,18 @@ class MasterLink:
             identity, kind = self._topics.parse(topic)
             if retained and kind not in KEPT:
                 return  # left by an earlier run: the vehicle may be elsewhere
-            message = self._codec.decode(kind, payload).message
+            message = self._decoded(kind, payload)
         except (MessageError, TopicError) as error:
             self._write(f"{topic}: {error}")
             return
         self._take(identity, message)
+
+    def _decoded(self, kind: Kind, payload: bytes) -> FromVehicle:
+        """Returns the message; of a factsheet also what is invalid in it. Raises MessageError."""
+        if kind is not Kind.FACTSHEET or not payload:  # empty: the broker keeps it no more
+            return self._codec.decode(kind, payload).message
+        try:
+            sheet: Factsheet = self._codec.decode(kind, payload).message
+        except MessageError as error:
+            return InvalidFactsheet(str(error))
+        return replace(sheet, faults=factsheet_faults(payload, self._codec.version))

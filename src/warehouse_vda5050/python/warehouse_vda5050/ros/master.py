@@ -19,7 +19,14 @@ from warehouse_client.warehouse import WarehouseClient
 from warehouse_layout.message_enums import EventKind as Kind
 from warehouse_layout.message_enums import FailureKind, RobotMode
 from warehouse_layout.models import models
-from warehouse_msgs.msg import ClosedZones, Event, FleetState, Scenery, Vda5050
+from warehouse_msgs.msg import (
+    ClosedZones,
+    Event,
+    FleetState,
+    Scenery,
+    TransportEvent,
+    Vda5050,
+)
 from warehouse_msgs.srv import SetRobotMode
 from warehouse_vda5050.broker_topic import BrokerTopic, masters_message
 from warehouse_vda5050.grid import Grid
@@ -33,6 +40,7 @@ from warehouse_vda5050.model import ToVehicle
 from warehouse_vda5050.mqtt.master_link import FromVehicle
 from warehouse_vda5050.ros.commands import CommandTopics
 from warehouse_vda5050.ros.floor import grid_of, read_map
+from warehouse_vda5050.ros.unit_scales import UnitScales
 from warehouse_vda5050.topics import Identity
 
 SET_MODE = "warehouse/set_robot_mode"
@@ -60,6 +68,7 @@ class Master:
         self._robots, self._run, self._broker = list(robots), run, broker
         self._has_zones = zones
         self._warehouse = warehouse
+        self._scales = UnitScales(rospy, warehouse)
         self._fleet: RemoteFleet | None = None
         self._next_shadows = 0.0
         self._has_news = False  # since the shadows were published
@@ -74,6 +83,9 @@ class Master:
         numbers = frozenset(robot.number for robot in self._robots)
         CommandTopics(numbers, self._post_command, self._timeline)
         subscribe(rospy, "warehouse/zones", ClosedZones, self._on_zones, queue_size=1)
+        subscribe(
+            rospy, "warehouse/transports", TransportEvent, self._on_transport, queue_size=1000
+        )
 
     def take(self, identity: Identity, message: FromVehicle) -> None:
         """Takes a vehicle's message; called by poll()."""
@@ -83,7 +95,9 @@ class Master:
 
     def run(self, send: Send, poll: Callable[[float], None]) -> None:
         """Serves until ROS shuts down."""
-        fleet = self._fleet = RemoteFleet(self._robots, self._grid(), self._run, self._has_zones)
+        fleet = self._fleet = RemoteFleet(
+            self._robots, self._grid(), self._run, self._has_zones, self._scales.measure
+        )
         while not rospy.is_shutdown():
             poll(PERIOD / 4)
             self._take_posted(fleet)
@@ -110,6 +124,10 @@ class Master:
             for z in message.zones
         )
         self._posted.put(lambda fleet: fleet.close_zones(areas))
+
+    def _on_transport(self, event: TransportEvent) -> None:
+        if event.kind == TransportEvent.ASSIGNED:
+            self._posted.put(lambda fleet: fleet.expect_unit(event.kiva_id, event.shelf_id))
 
     def _timeline(self) -> int:
         return self._warehouse.timeline if self._warehouse.fleet is not None else 0
