@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The robots at a broker by VDA 5050, as the nodes there publish them; faults on demand."""
 
+import math
+import time
 from types import ModuleType
 from typing import Any
 
@@ -19,6 +21,7 @@ from warehouse_viewer.ros.simulation import is_offered, request
 FAULT = "warehouse/vda5050_fault"
 ONBOARD, REMOVE = "warehouse/vda5050_onboard", "warehouse/vda5050_remove"
 SEEN = "warehouse/vda5050_seen"
+SETTLES = 1.0  # a latched message may come before its connection counts as one [s]
 
 
 class Vda5050Feed:
@@ -27,17 +30,21 @@ class Vda5050Feed:
     def __init__(self, ros: ModuleType) -> None:
         self._ros = ros
         self._newest: dict[int, Vda5050] = {}
+        self._kept_at = -math.inf  # when a message came last
         self._subscriber = subscribe(ros, "warehouse/vda5050", Vda5050, self._keep, queue_size=10)
 
     def _keep(self, message: Vda5050) -> None:
+        self._kept_at = time.monotonic()
         self._newest[message.direction] = message
 
     @property
     def messages(self) -> list[Vda5050]:
-        """The latest message."""
-        if not self._subscriber.get_num_connections():
+        """The latest message of each direction."""
+        if self._subscriber.get_num_connections():
+            return [*self._newest.values()]
+        if time.monotonic() > self._kept_at + SETTLES:
             self._newest.clear()
-        return [*self._newest.values()]
+        return []
 
     def begin_fault(self, number: int, fault: str, seconds: float) -> None:
         """Lets a vehicle misbehave; '' ends that. Blocks. Raises RefusedError, AwayError."""
