@@ -66,7 +66,7 @@ def served(node, *arguments):
         line = server.stdout.readline()
         address = re.search(r"http://\S+", line)
         if address is None:
-            raise RuntimeError(f"{node} told no address: {line.strip() or 'it ended at once'}")
+            raise RuntimeError(f"{node} gave no address: {line.strip() or 'it ended at once'}")
         yield address[0]
 
 

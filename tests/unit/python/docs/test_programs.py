@@ -29,7 +29,7 @@ def test_of_programs_with_the_same_name_the_package_says_which(running):
 
 def test_a_program_that_ends_without_an_address_says_so(running, tmp_path):
     with (
-        pytest.raises(RuntimeError, match="warehouse_viewer/replay told no address"),
+        pytest.raises(RuntimeError, match="warehouse_viewer/replay gave no address"),
         running.served("warehouse_viewer/replay", tmp_path / "absent", "--no-browser"),
     ):
         pass
