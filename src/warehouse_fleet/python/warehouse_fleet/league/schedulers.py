@@ -3,7 +3,7 @@
 
 import math
 from collections.abc import Iterator
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,7 @@ WEIGHT = 0.5  # of a task's length beside the way to it
 STAY = 1.0  # cells by which another robot has to be nearer to take over a task
 UNREACHABLE = 1e6  # cells
 
-Cells = NDArray[np.integer[Any]]
+Cells: TypeAlias = NDArray[np.integer[Any]]
 
 
 class Scheduler(Protocol):
