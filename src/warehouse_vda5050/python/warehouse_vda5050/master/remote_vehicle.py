@@ -139,9 +139,11 @@ class RemoteVehicle:
         """Takes notice that it is to fetch a unit; one that it can't carry is refused at once,
         before it drives there."""
         try:
-            self.abilities.check_unit(unit, self._measure(unit))
-        except UnfitError as refusal:
-            self._happened(EventKind.REFUSED, str(refusal), refusal.unit)
+            loads = self.abilities.check_unit(unit, self._measure(unit)).loads
+            for kind in ("pick", "drop"):
+                self.abilities.action(kind, "", unit, loads)
+        except RefusedError as refusal:
+            self._happened(EventKind.REFUSED, str(refusal), unit)
 
     def take_state(self, state: VehicleState, now: float) -> None:
         """Takes the vehicle's state; drops one that is older than the last."""
@@ -357,7 +359,8 @@ class RemoteVehicle:
     def _place(self, point: Point) -> tuple[str, Position]:
         cell = self._grid.cell_at(*point)
         x, y = self.robot.frame.to_vehicle(*point)
-        return self._grid.node_id(cell), Position(x, y, map_id=self.view.map_id)
+        map_id = self.robot.map_id or self.view.map_id
+        return self.robot.node_id(cell), Position(x, y, map_id=map_id)
 
     def _due_order(self, now: float) -> VehicleOrder | None:
         """Returns the next order; or the last one again, while the vehicle does not confirm it."""

@@ -34,8 +34,12 @@ KINDS: dict[type, Kind] = {
 FromVehicle = VehicleState | Connection | Factsheet | InvalidFactsheet
 
 
+def _filters(topics: Topics, who: Iterable[Identity] | None, kind: Kind) -> list[str]:
+    return [topics.everyone(kind)] if who is None else [topics.of(vehicle, kind) for vehicle in who]
+
+
 class MasterLink:
-    """Carries messages between a master and the vehicles `who`.
+    """Carries messages between a master and the vehicles `who`; None: all that are at the broker.
 
     `link` is to be added to an MqttLoop, whose poll() calls take(identity, message); `write` takes
     lines for a person: what a vehicle sent that can't be read.
@@ -44,7 +48,7 @@ class MasterLink:
     def __init__(
         self,
         name: str,
-        who: Iterable[Identity],
+        who: Iterable[Identity] | None,
         codec: Codec,
         topics: Topics,
         broker: BrokerSettings,
@@ -52,16 +56,20 @@ class MasterLink:
         write: Callable[[str], None] = lambda _line: None,
     ) -> None:
         self._codec, self._topics, self._take, self._write = codec, topics, take, write
-        self._headers = {vehicle: Headers(vehicle, codec.version) for vehicle in who}
+        self._headers: dict[Identity, Headers] = {}
+        who = None if who is None else [*who]
         subscriptions = [
-            (topics.of(vehicle, kind), kind.qos) for vehicle in self._headers for kind in HEARD
+            (topic, kind.qos) for kind in HEARD for topic in _filters(topics, who, kind)
         ]
         self.link = Link(name, broker, subscriptions, self._on_message)
 
     def send(self, identity: Identity, message: ToVehicle) -> None:
         """Sends a message to a vehicle, if there is a connection."""
         kind = KINDS[type(message)]
-        message = replace(message, header=self._headers[identity].next(kind))
+        headers = self._headers.get(identity)
+        if headers is None:
+            headers = self._headers[identity] = Headers(identity, self._codec.version)
+        message = replace(message, header=headers.next(kind))
         topic = self._topics.of(identity, kind)
         self.link.publish(Outgoing(topic, self._codec.encode(message), kind.qos, kind.retained))
 
