@@ -53,11 +53,12 @@ test-long: build-tests  ## fleets at work, seed after seed, with and without fau
 	OVERLAPS=2000 ../devel/lib/warehouse_tests/overlap_test --gtest_brief=1; \
 	OBSTACLES=all /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/fleet/test_obstacles.py; \
 	VDA5050_HISTORIES=10000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/vda5050/test_histories.py unit/python/vda5050/test_both_sides.py unit/python/vda5050/test_jumps.py; \
-	MUTANTS=all /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/vda5050/conform/test_mutants.py unit/python/vda5050/conform/test_zone_mutants.py unit/python/vda5050/conform/test_master_mutants.py; \
+	MUTANTS=all /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/vda5050/conform/test_mutants.py unit/python/vda5050/conform/test_zone_mutants.py unit/python/vda5050/conform/test_master_mutants.py unit/python/vda5050/conform/test_master_zone_mutants.py; \
 	LAYOUTS=$${LAYOUTS:-200} /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/runs/test_random_layouts.py; \
 	JUMP_MINUTES=10 rostest rostest/world/time_jumps.test; \
 	rostest rostest/vda5050/calibrate/calibrate.test; \
 	rostest rostest/vda5050/conform_master/conform_master.test; \
+	rostest rostest/vda5050/conform_master/conform_zones.test; \
 	BURST=all rostest rostest/nodes/malformed.test; \
 	MUTATIONS=2000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/runs/test_mutations.py; \
 	../scripts/learning_packages && RWARE_STEPS=$${RWARE_STEPS:-50000} RWARE_IDS=all ../.venv/bin/python -m pytest -q -p no:cacheprovider learning/test_rware.py -k "registered or checkers"; \

@@ -15,6 +15,7 @@ INTRODUCTION = (
 def written() -> str:
     """Returns the page of fields."""
     from warehouse_vda5050 import field_rules
+    from warehouse_vda5050.master.factsheet_fields import FIELDS
     from warehouse_vda5050.vehicle.abilities import ACTIONS, ZONE_ACTIONS
 
     sections = [section(place, rules) for place, rules in field_rules.TABLE.items()]
@@ -26,6 +27,7 @@ def written() -> str:
         *sections,
         actions((*ACTIONS, *ZONE_ACTIONS)),
         left_out,
+        factsheets(FIELDS),
     )
 
 
@@ -33,6 +35,20 @@ def section(place, rules) -> str:
     """Returns the fields of one object of a message."""
     rows = [(code(rule.name), rule.use.value, prose(rule.text)) for rule in rules]
     return f"## {place}\n\n{table(['field', '', ''], rows)}"
+
+
+def factsheets(fields) -> str:
+    """Returns what the master makes of the fields of a vehicle's factsheet."""
+    text = (
+        "The [master](../how-to/vda5050.md#master) reads these fields of a vehicle's factsheet. A"
+        " field that is missing limits nothing. One that does not fit the schema is a REFUSED event"
+        " with the field and what was expected."
+    )
+    rows = [
+        (", ".join(code(name) for name in names.split(", ")), prose(about))
+        for names, about in fields
+    ]
+    return f"## Factsheets of vehicles\n\n{text}\n\n{table(['field', ''], rows)}"
 
 
 def actions(known) -> str:

@@ -8,6 +8,7 @@ import io
 import json
 import unittest
 
+import rosgraph
 import rospy
 import rostest
 import websockets
@@ -15,6 +16,7 @@ from rostest_support.node_test import PATIENCE, wait_until
 from rostest_support.page_test import address, ask, fetch
 from rostest_support.warehouse_test import place
 
+from warehouse_client.commands import COMMANDS
 from warehouse_msgs.msg import Rotate
 
 POSES = 1e-3  # [m]
@@ -39,20 +41,25 @@ class ViewerTest(unittest.TestCase):
 
 
 class WhoCommanded(ViewerTest):
+    def test_the_world_alone_listens_for_commands(self):
+        """A client that waits for one connection has that to the world."""
+        _, listeners, _ = rosgraph.Master(rospy.get_name()).getSystemState()
+        for name in COMMANDS:
+            topic = rospy.resolve_name(name)
+            self.assertEqual(dict(listeners)[topic], [rospy.resolve_name("gazebo")], topic)
+
     def test_a_command_over_a_topic_has_the_name_of_its_node(self):
         rotate = rospy.Publisher("rot", Rotate, queue_size=1)
-        wait_until(rotate.get_num_connections, "who listens")
-        mine = lambda: [row for row in rows() if row["by"] == rospy.get_name()]  # noqa: E731
+        wait_until(rotate.get_num_connections, "the world")
+        rotate.publish(Rotate.COUNTERCLOCKWISE, 1)
 
         def rows():
             return csv.DictReader(io.StringIO(fetch("api/v1/commands.csv")[1].decode()))
 
-        def noted():
-            if not mine():
-                rotate.publish(Rotate.COUNTERCLOCKWISE, 1)
-            return mine()
+        def mine():
+            return [row for row in rows() if row["by"] == rospy.get_name()]
 
-        wait_until(noted, "the journal to have the command")
+        wait_until(mine, "the journal to have the command")
         row = mine()[0]
         self.assertEqual((row["method"], row["path"], row["status"]), ("TOPIC", "/rot", "0"))
         self.assertEqual(json.loads(row["body"])["kiva_id"], 1)

@@ -90,6 +90,7 @@ class VehicleCase(unittest.TestCase):
     """A warehouse, a broker with one vehicle, and the master between them."""
 
     VERSION = "2.1.0"
+    ROBOT = MetricRobot
 
     @classmethod
     def setUpClass(cls):
@@ -102,7 +103,7 @@ class VehicleCase(unittest.TestCase):
         wait_until(lambda: warehouse.is_known, "the warehouse")
         cls.plan = warehouse.plan()
         cls.broker = OwnBroker()
-        robot = MetricRobot(grid_of(read_map()), cls.free_place())
+        robot = cls.ROBOT(grid_of(read_map()), cls.free_place())
         cls.behind = Behind(robot, cls.broker.port, cls.VERSION)
         cls.behind.start()
         cls.start_master()

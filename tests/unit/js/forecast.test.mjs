@@ -3,12 +3,22 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { aheadOf, changesOf, pastOf, policiesOf } from '../../../src/warehouse_viewer/web/js/operations/forecast.js';
+import { aheadOf, changesOf, doneBetween, pastOf, policiesOf } from '../../../src/warehouse_viewer/web/js/operations/forecast.js';
 
-test('orders done are counted back from now', () => {
-  const past = pastOf({ interval: 60, begin: 90, end: 270, orders_completed: [1, 2, 3, 0] });
+const LAST = { interval: 60, begin: 90, end: 270, orders_completed: [1, 2, 3, 0] };
+
+test('orders done are counted back from when a forecast was made', () => {
+  const past = pastOf(LAST, 270);
   assert.deepEqual(past.map(({ y }) => y), [-6, -5, -3, 0, 0]);
   assert.deepEqual(past.map(({ x }) => x), [-3, -2.5, -1.5, -0.5, 0]);
+  assert.deepEqual(pastOf(LAST, 210), [{ x: -2, y: -4.5 }, { x: -1.5, y: -3.5 }, { x: -0.5, y: -1.5 }, { x: 0, y: 0 }]);
+  assert.deepEqual(pastOf(LAST, 80), []);
+});
+
+test('orders that were done between two forecasts are known within the last hour', () => {
+  assert.equal(doneBetween(LAST, 120, 240), 5);
+  assert.equal(doneBetween(LAST, 150, 300), 4);
+  assert.ok(Number.isNaN(doneBetween(LAST, 60, 240)));
 });
 
 test('a forecast begins now, with no order done', () => {

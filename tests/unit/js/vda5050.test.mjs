@@ -75,3 +75,12 @@ test('at a past moment the recording is asked, and what is of now is not shown',
   assert.deepEqual(vda5050Of(7, { now: 9001 }), []);
   assert.equal(paths.at(-1), '/api/v1/vda5050');
 });
+
+test('a vehicle of 3.0.0 says where it will drive and when it will be there', () => {
+  const planning = { ...ROBOT, order: '', errors: [], driven_by: 'COORDINATOR', planned_path: [[0, 0], [2, 0]],
+    intermediate_path: [{ x: 1, y: 0, time: 1_700_000_000 }] };
+  const [path, reaches] = factsOf(planning).slice(-2);
+  assert.deepEqual(path, ['planned path', '2 points']);
+  assert.equal(reaches[0], 'reaches');
+  assert.match(reaches[1], /^1\.0, 0\.0 m at .*\d/);
+});

@@ -163,7 +163,13 @@ _WAREHOUSE = {
     "TransportEvent": Contract(source=_FLEET, kinds={"kind": message_names.TRANSPORT}),
     "UnitStates": Contract(source=_WORLD, tables=("carrier pose:7", "loose_item loose_pose:7")),
     "Vda5050": Contract(
-        tables=("kiva_id manufacturer serial connection order errors driven faults",),
+        tables=(
+            "kiva_id manufacturer serial connection order errors driven faults planned_points"
+            " waypoints",
+            "planned_x planned_y",
+            "waypoint_x waypoint_y waypoint_time",
+        ),
+        totals={"planned_x": ("planned_points",), "waypoint_x": ("waypoints",)},
         kinds={
             "direction": {Vda5050.VEHICLE: "VEHICLE", Vda5050.MASTER: "MASTER"},
             "connection": {

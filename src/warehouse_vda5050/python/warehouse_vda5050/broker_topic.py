@@ -58,6 +58,8 @@ def vehicles_message(vehicles: Vehicles, broker: str) -> Vda5050:
         message.errors.append(_text(vehicle.errors()))
         message.driven.append(vehicle.is_taken)
         message.faults.append(link.faults.active.names)
+        message.planned_points.append(0)
+        message.waypoints.append(0)
     return message
 
 
@@ -75,10 +77,25 @@ def masters_message(vehicles: Iterable[RemoteVehicle], broker: str, now: float) 
             Vda5050.CONNECTIONBROKEN if silent else CONNECTIONS[view.connection]
         )
         message.order.append(vehicle.order_id)
-        message.errors.append(_text(view.state.errors if view.state else ()))
+        errors = _text(view.state.errors if view.state else ())
+        lines = [*errors.splitlines(), *(f"factsheet: {why}" for why in vehicle.sheet_faults)]
+        message.errors.append("\n".join(lines))
         message.driven.append(not vehicle.is_idle)
         message.faults.append("")
+        _add_paths(message, vehicle)
     return message
+
+
+def _add_paths(message: Vda5050, vehicle: RemoteVehicle) -> None:
+    """Adds where a vehicle says that it will drive."""
+    planned, waypoints = vehicle.view.planned_path, vehicle.view.waypoints
+    message.planned_points.append(len(planned))
+    message.planned_x += [x for x, _ in planned]
+    message.planned_y += [y for _, y in planned]
+    message.waypoints.append(len(waypoints))
+    message.waypoint_x += [x for x, *_ in waypoints]
+    message.waypoint_y += [y for _, y, _ in waypoints]
+    message.waypoint_time += [time for *_, time in waypoints]
 
 
 def _text(errors: Iterable[Error]) -> str:

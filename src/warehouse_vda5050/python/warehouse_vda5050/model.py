@@ -294,7 +294,7 @@ class Visualization:
 @dataclass(frozen=True)
 class SupportedAction:
     """An action that a vehicle knows; scopes are INSTANT, NODE, EDGE, parameters are (key, type,
-    optional, description)."""
+    optional, description); no blocking types where a factsheet of others does not say."""
 
     type: str
     scopes: tuple[str, ...]
@@ -306,8 +306,24 @@ class SupportedAction:
 
 
 @dataclass(frozen=True)
+class LoadSet:
+    """A kind of load that a vehicle takes, up to some size [m], mass [kg] and speed with it [m/s];
+    None where its factsheet does not say."""
+
+    name: str
+    load_type: str
+    length: float | None = None
+    width: float | None = None
+    height: float | None = None
+    max_mass: float | None = None
+    max_speed: float | None = None
+
+
+@dataclass(frozen=True)
 class Factsheet:
-    """What a kind of vehicle is and can [m, kg, s]."""
+    """What a kind of vehicle is and can [m, kg, s]. `load_sets` is empty where it names none;
+    `silent` names fields, as in 2.1.0, that it leaves out and that have the values of here;
+    `faults` are sentences about fields that do not fit the schema."""
 
     series: str = "Kiva"
     description: str = ""
@@ -341,7 +357,17 @@ class Factsheet:
     versions: tuple[tuple[str, str], ...] = ()
     zone_types: tuple[str, ...] = ()  # that it keeps to; 3.0 alone has it
     max_zones: int = 0  # of one zone set
+    load_sets: tuple[LoadSet, ...] = ()
+    silent: tuple[str, ...] = ()
+    faults: tuple[str, ...] = ()
     header: Header = field(default_factory=Header)
+
+
+@dataclass(frozen=True)
+class InvalidFactsheet:
+    """A factsheet that can't be read; `fault` names the field and what was expected."""
+
+    fault: str
 
 
 ToVehicle = VehicleOrder | InstantActions | ZoneSet | Responses

@@ -47,7 +47,7 @@ def straight(points: Sequence[Point]) -> Trajectory:
 
 
 def fault_of(curve: Trajectory) -> str:
-    """Returns why a NURBS is none, '' if it is one."""
+    """Returns why the numbers are no NURBS, '' if they are one."""
     count, degree = len(curve.points), curve.degree
     if not 1 <= degree < count <= MAX_POINTS:
         return f"{count} control points; more than the degree, {degree}, and at most {MAX_POINTS}"

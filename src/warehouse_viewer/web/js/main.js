@@ -29,6 +29,7 @@ import { Signs } from './scene/signs.js';
 import { Stage } from './scene/stage.js';
 import { drawsInSoftware } from './base/software.js';
 import { Tip } from './base/tip.js';
+import { Vehicles } from './panels/vehicles.js';
 import { shownName } from './base/words.js';
 import { World } from './base/world.js';
 
@@ -53,7 +54,8 @@ class Page {
     this.fleet = new FleetPanel(select);
     this.builder = new Builder(say, () => this.present());
     this.people = new People(say);
-    this.placers = [this.builder, this.people];
+    this.vehicles = new Vehicles(this);
+    this.placers = [this.builder, this.people, this.vehicles];
     this.fallen = new FallenItems(this.world, () => this.selected,
       (request) => this.builder.attempt(request));
     this.requested = new Requested(this.world);
@@ -305,6 +307,7 @@ class Page {
     const id = this.world.scene.robots[robot];
     if (robot >= 0 && isPressed($('path'))) this.showPath(place, id);
     else this.overlays.showPath(null, []);
+    this.showPlanned(id);
     const scan = robot >= 0 && isPressed($('scan')) && this.scans.get(id);
     this.overlays.showScan(scan || null, place);
   }
@@ -314,6 +317,15 @@ class Page {
     const way = this.ways.get(id);
     const path = way ? [] : this.paths[id] ?? [];
     this.overlays.showPath(place.slice(0, 2), path, way?.goal);
+  }
+
+  /** Where a vehicle of VDA 5050 says that it will drive, beside what was ordered. */
+  async showPlanned(id) {
+    const planned = isPressed($('path')) ? this.details.plannedOf(id) : null;
+    if (!planned && !this.planned) return;
+    const { PlannedPath } = await import('./layers/planned.js');
+    this.planned ??= new PlannedPath(this.stage);
+    this.planned.show(planned);
   }
 
   /** Ways of the fleet, or of the selected robot alone. */

@@ -63,6 +63,12 @@ class Operator(threading.Thread):
 
 
 class ConformMaster(unittest.TestCase):
+    VERSION, TRIED, NOT_SEEN = "2.1.0", TRIED, NOT_SEEN
+
+    def operators(self):
+        """Who is at work in the warehouse meanwhile."""
+        return [Operator()]
+
     def free_cells(self):
         """Parking cells that no robot is near, as (column, row), once all stand still."""
         fleet, state = Collector("/warehouse/fleet", FleetState), CoordinatorState
@@ -87,32 +93,25 @@ class ConformMaster(unittest.TestCase):
             played.append(f"acme/{number}@{x},{y},0,{grid.node_id(cell)}")
             lines.append(f"{number}: {{manufacturer: acme, serial: '{number}'}}\n")
         (folder / "robots.yaml").write_text("".join(lines))
-        operator = Operator()
+        operators = self.operators()
         with OwnBroker() as broker:
             address = f"localhost:{broker.port}"
             conform = started(
                 *("rosrun", "warehouse_vda5050", "conform", "--broker", address, "--master"),
-                *(
-                    "--play",
-                    *played,
-                    "--out",
-                    folder,
-                    "--strict",
-                    "--patience",
-                    "120",
-                    "--only",
-                    *TRIED,
-                ),
+                *("--play", *played, "--out", folder, "--strict", "--patience", "120"),
+                *("--version", self.VERSION, "--only", *self.TRIED),
             )
             master = started(
                 *("roslaunch", "warehouse_vda5050", "master.launch", f"broker:={address}"),
-                f"robots:={folder / 'robots.yaml'}",
+                *(f"robots:={folder / 'robots.yaml'}", f"version:={self.VERSION}"),
             )
             try:
-                operator.start()
+                for operator in operators:
+                    operator.start()
                 code = conform.wait(LONGEST)
             finally:
-                operator.ended.set()
+                for operator in operators:
+                    operator.ended.set()
                 conform.kill()
                 master.terminate()
                 master.wait(30)
@@ -131,7 +130,7 @@ class ConformMaster(unittest.TestCase):
             if case.find("skipped") is not None
         }
         self.assertEqual((code, differs), (0, []))
-        self.assertLessEqual(skipped.keys(), NOT_SEEN, skipped)
+        self.assertLessEqual(skipped.keys(), self.NOT_SEEN, skipped)
 
 
 if __name__ == "__main__":

@@ -18,12 +18,14 @@ from warehouse_fleet.transports.dispatch.depart import Departure
 from warehouse_fleet.transports.dispatch.lift import LIFT_ATTEMPTS, LIFT_PATIENCE, LiftWatch
 from warehouse_fleet.transports.dispatch.park import Parking
 from warehouse_fleet.transports.dispatch.recover import DEAD, URGENT, Recovery
+from warehouse_fleet.transports.dispatch.reject import Rejection
 from warehouse_fleet.transports.distances import Distances
 from warehouse_fleet.transports.journeys import Journeys
 from warehouse_fleet.transports.lifts import LiftOrder, Lifts
 from warehouse_fleet.transports.storing import Storing
 from warehouse_fleet.transports.streets import Streets
 from warehouse_fleet.transports.transport_book import STAY, Kind, Leave, Step, TransportBook
+from warehouse_fleet.transports.unfit_units import ASKS_AGAIN, UnfitUnits
 from warehouse_fleet.transports.unit_map import UnitMap
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.stations import PICK, Station
@@ -383,7 +385,7 @@ def test_a_closed_charging_place_is_not_given(desk):
 # --- assign
 
 
-def assignment(desk, kept=(False, False), waits=lambda _transport: ""):
+def assignment(desk, kept=(False, False), waits=lambda _transport: "", unfit=None):
     return Assignment(
         desk.book,
         desk.robots,
@@ -394,6 +396,7 @@ def assignment(desk, kept=(False, False), waits=lambda _transport: ""):
             desk.distances, desk.units.cell_of, desk.robots.cell, asked, free
         ),
         waits,
+        unfit or UnfitUnits(desk.book, desk.robots),
     )
 
 
@@ -467,3 +470,52 @@ def test_robots_that_charge_or_stand_aside_stay(desk):
     desk.robots.cell[1] = PLACE + 1
     clearing(desk, charging=[0]).run()
     assert (desk.robots.goal == NOWHERE).all()
+
+
+# --- reject
+
+
+@pytest.mark.parametrize("steps", [1, 2, 3])
+def test_a_unit_that_its_robot_can_not_carry_goes_to_another_robot_and_not_back(desk, steps):
+    transport = desk.transport(*(Step.FETCHING, Step.READY, Step.LIFTING)[:steps], robot=1)
+    desk.robots.busy[1] = steps == 3
+    unfit = UnfitUnits(desk.book, desk.robots)
+    rejection = Rejection(desk.book, desk.robots, unfit, desk.completion)
+    rejection.add(2, UNIT, "the unit weighs 99 kg")
+    rejection.run()
+    assert transport.step == Step.OPEN and not desk.robots.busy[1]
+    assignment(desk, unfit=unfit).run()
+    assert (transport.robot, transport.step) == (0, Step.FETCHING)
+
+
+def test_a_unit_that_the_only_free_robot_can_not_carry_waits_and_others_do_not(desk):
+    unfit = UnfitUnits(desk.book, desk.robots)
+    desk.units.update({UNIT: PLACE, 8: PLACE + 1}, 0.0, [])
+    first, second = desk.transport(), desk.transport(unit=8)
+    unfit.note(0, UNIT, "too heavy")
+    desk.robots.busy[1] = True
+    assignment(desk, unfit=unfit).run()
+    assert (first.step, second.robot) == (Step.OPEN, 0)
+
+
+def test_a_robot_is_asked_again_after_a_time(desk):
+    unfit = UnfitUnits(desk.book, desk.robots)
+    unfit.note(1, UNIT, "too heavy")
+    desk.roads.time += ASKS_AGAIN - 1
+    assert unfit.robots_of(UNIT) == {1}
+    desk.roads.time += 1
+    assert unfit.robots_of(UNIT) == frozenset()
+
+
+def test_a_transport_fails_if_no_robot_can_carry_its_unit(desk):
+    transport = desk.transport(Step.FETCHING, robot=1)
+    unfit = UnfitUnits(desk.book, desk.robots)
+    rejection = Rejection(desk.book, desk.robots, unfit, desk.completion)
+    rejection.add(2, UNIT, "too heavy")
+    rejection.run()
+    assert transport.number in desk.book
+    rejection.add(1, UNIT, "too large")
+    rejection.run()
+    assert transport.number not in desk.book
+    text = desk.book.take_events()[-1].text
+    assert text == "no robot can carry its unit: kiva1: too large; kiva2: too heavy"

@@ -241,3 +241,34 @@ def test_stations_one_above_the_other_are_reported(write):
         " rack C at 5 m"
     )
     assert file.floor[1, 2] == "s"
+
+
+def test_heights_at_many_nodes_are_reported_in_one_sentence(write):
+    values = lif()
+    values["layouts"][0]["stations"] += [
+        {
+            "stationId": f"{number}{height}",
+            "interactionNodeIds": [number],
+            "stationName": "rack",
+            "stationHeight": height,
+        }
+        for number in ("R1", "N5")
+        for height in (0.0, 2.5)
+    ]
+    notes = formats.read(write(values))[1]
+    (said,) = [text for text in notes if text.startswith("a cell has one place")]
+    assert said.endswith("node R1 has 2: rack at 0 m, rack at 2.5 m; 1 other node too")
+
+
+def test_curves_and_corridors_are_reported_once_each(write):
+    values = lif()
+    for edge in values["layouts"][0]["edges"]:
+        (types,) = edge["vehicleTypeEdgeProperties"]
+        types["trajectory"] = {"degree": 3, "knotVector": [0, 1], "controlPoints": []}
+        types["corridor"] = {"leftWidth": 1.0, "rightWidth": 1.0}
+    count = len(values["layouts"][0]["edges"])
+    notes = formats.read(write(values))[1]
+    for name in ("trajectory", "corridor"):
+        assert [text for text in notes if name in text] == [
+            f"a layout holds no {name}: left out {count} times"
+        ]

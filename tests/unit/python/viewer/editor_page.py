@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The layout editor in a browser, as tests lead it: by mouse, fingers and keys."""
 
-import contextlib
-import re
-import subprocess
 import time
 import urllib.request
 
 import paths
+from page_program import served
 from rostest_support.browser import browser  # noqa: F401 (for the tests)
 
 from warehouse_layout.file import layout_file
@@ -27,15 +25,9 @@ LINES = """(() => {
 })()"""
 
 
-@contextlib.contextmanager
 def editor(file=None):
     """The address of `edit FILE`."""
-    command = ["/usr/bin/python3", EDIT, *([file] if file else []), "--port", "0"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
-        try:
-            yield re.search(r"http://\S+", process.stdout.readline())[0]
-        finally:
-            process.terminate()
+    return served(EDIT, *([file] if file else []))
 
 
 def paper(chromium, address):

@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """All texts of the pages are in the catalogue, and a page speaks the language of its address."""
 
-import contextlib
 import importlib.machinery
 import importlib.util
 import json
-import re
-import subprocess
 
 import pytest
 from editor_page import PATIENCE, browser, editor
+from page_program import served
 from paths import ROOT
 from whatif.test_whatif_page import server as whatif
 
@@ -42,15 +40,9 @@ ENGLISH = """(() => {
 })()"""
 
 
-@contextlib.contextmanager
 def replay():
     """The address of a recording's page, which is the floor's."""
-    command = ["/usr/bin/python3", REPLAY, RECORDING, "--port", "0"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
-        try:
-            yield re.search(r"http://\S+", process.stdout.readline())[0]
-        finally:
-            process.terminate()
+    return served(REPLAY, RECORDING)
 
 
 @pytest.fixture(scope="module")

@@ -44,6 +44,8 @@ class Observation:
     people: Any = field(default_factory=lambda: NO_PEOPLE)  # as warehouse_msgs/People
     fallen: int = 0  # items on the floor
     refused: Sequence[str] = ()  # models of robots that have refused a path since the last tick
+    # (kiva id, unit, reason) of robots that have said that they can't carry a unit
+    rejected: Sequence[tuple[int, int, str]] = ()
     units: UnitPoses | None = None  # where units stand, if that may have changed
     # Asked when the controller wants to look: the world's map, (h, w) uint8, and where units stand
     # then. None: there is no answer now.
@@ -127,6 +129,8 @@ class FleetController:
         reports = self.robots.align(observation.robots)
         for model in observation.refused:
             traffic.on_refused(model)
+        for rejection in observation.rejected:
+            self.transports.reject(*rejection)
         if observation.units is not None:
             self.transports.update_units(observation.units)
         cancels = self._cancels(observation.time, reports)

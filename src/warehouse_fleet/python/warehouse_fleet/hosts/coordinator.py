@@ -113,6 +113,7 @@ class CoordinatorNode:
                 watch.people,
                 fallen=len(watch.objects.fallen_item),
                 refused=watch.take_refused(),
+                rejected=watch.take_rejected(),
                 units=watch.unit_poses() if state_is_due else None,
                 look_at_map=watch.look_at_map,
             )
@@ -225,7 +226,7 @@ class CoordinatorNode:
         if self.controller is not None:
             self.controller.close()
         self.controller = self._random = None
-        self._watch.take_refused()
+        self._watch.take_refused(), self._watch.take_rejected()
         try:
             grid = request_map()
             if not grid.data:

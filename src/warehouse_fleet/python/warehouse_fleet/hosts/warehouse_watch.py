@@ -44,6 +44,7 @@ class WarehouseWatch:
         self.collisions = 0
         self.reasons: dict[str, str] = {}  # why robots are broken, in their own words, by model
         self._refused: list[str] = []
+        self._rejected: list[tuple[int, int, str]] = []
         subscribe(rospy, "warehouse/scenery", Scenery, self._on_scenery, queue_size=1)
         subscribe(rospy, "warehouse/objects", WarehouseObjects, self._keep, "objects", queue_size=1)
         subscribe(rospy, "warehouse/unit_states", UnitStates, self._keep, "units", queue_size=1)
@@ -78,11 +79,26 @@ class WarehouseWatch:
         if event.kind == Event.COLLISION:
             self.collisions += 1
         elif event.kind == Event.REFUSED and event.model.startswith("kiva"):
-            self._refused.append(event.model)
+            self._on_refused(event)
         elif event.kind == Event.FAILED:
             self.reasons[event.model] = event.text
         elif event.kind in (Event.REPAIRED, Event.DELETED):
             self.reasons.pop(event.model, None)
+
+    def _on_refused(self, event: Event) -> None:
+        """Keeps what a robot refused: a unit that it can't carry (other), or its path."""
+        unit = event.other.removeprefix("storage_unit")
+        if unit != event.other and unit.isdecimal():
+            kiva_id = int(event.model.removeprefix("kiva"))
+            self._rejected.append((kiva_id, int(unit), event.text))
+        else:
+            self._refused.append(event.model)
+
+    def take_rejected(self) -> list[tuple[int, int, str]]:
+        """Returns (kiva id, unit, reason) of robots that can't carry a unit, since the last
+        call."""
+        rejected, self._rejected = self._rejected, []
+        return rejected
 
     def take_refused(self) -> list[str]:
         """Returns the models of robots that refused a path since the last call."""

@@ -21,6 +21,7 @@ from warehouse_fleet.transports.dispatch.idle import idle_robots
 from warehouse_fleet.transports.dispatch.lift import LiftWatch
 from warehouse_fleet.transports.dispatch.park import CellChoice, Parking
 from warehouse_fleet.transports.dispatch.recover import Recovery
+from warehouse_fleet.transports.dispatch.reject import Rejection
 from warehouse_fleet.transports.distances import Distances
 from warehouse_fleet.transports.journeys import Journeys
 from warehouse_fleet.transports.lifts import LiftOrder, Lifts
@@ -39,6 +40,7 @@ from warehouse_fleet.transports.transport_book import (
     TransportEvent,
 )
 from warehouse_fleet.transports.transport_requests import TransportRequests
+from warehouse_fleet.transports.unfit_units import UnfitUnits
 from warehouse_fleet.transports.unit_map import UnitMap, UnitPoses
 from warehouse_layout.floor.floor_plan import FloorPlan
 
@@ -112,8 +114,17 @@ class Transports(TransportRequests):
         self._evacuation = Evacuation(
             traffic.zones, ground.ravel(), self.aside, self.distances, book, robots, units, storing
         )
+        unfit = UnfitUnits(book, robots)
+        self._rejection = Rejection(book, robots, unfit, completion)
         self._assignment = Assignment(
-            book, robots, units, journeys, charging.kept, self._match_robots, self._evacuation.why
+            book,
+            robots,
+            units,
+            journeys,
+            charging.kept,
+            self._match_robots,
+            self._evacuation.why,
+            unfit,
         )
         self._parking = Parking(
             self.aside, book, robots, completion, charging.cell_of, self._park, traffic
@@ -167,6 +178,10 @@ class Transports(TransportRequests):
     def leave(self, transport: Transport) -> None:
         """Has a unit leave its destination at the next tick."""
         self._departure.add(transport)
+
+    def reject(self, kiva_id: int, shelf_id: int, why: str) -> None:
+        """Notes that a robot can't carry a unit: at the next tick others get its transport."""
+        self._rejection.add(kiva_id, shelf_id, why)
 
     # --- state
 
@@ -226,6 +241,7 @@ class Transports(TransportRequests):
 
     def advance(self, reports: Reports) -> None:
         """Runs all phases once, by what robots report: aligned reports (n,) of REPORT."""
+        self._rejection.run()
         self._recovery.run(reports)
         self._lift_watch.run(reports)
         self._arrival.run()

@@ -43,7 +43,7 @@ class Fork:
     """A shift at a time [s], and its fleet. shift: as bytes. began: its begin [s]. ways_back: how
     long units took back into storage lately [s]. recent: orders like which others come, where
     nothing else says what comes. pace: of robots from now on. world: a checkpoint, for simulated
-    robots; empty: there is none."""
+    robots; empty: they are ideal."""
 
     time: float
     began: float
@@ -146,23 +146,32 @@ def _is_own(owner: Any) -> bool:
     return len(room) > 1 and room[0] == __name__.split(".")[0] and room[1] in OWN_ROOMS
 
 
-class _Unpickler(pickle.Unpickler):
-    """Reads a shift, with the parts of a run."""
+class _Parts:
+    """The parts of a run, by name; the generators among them by number."""
 
-    def __init__(self, file: io.BytesIO, parts: Mapping[str, Any], seed: tuple[int, ...]) -> None:
-        super().__init__(file)
+    def __init__(self, parts: Mapping[str, Any], seed: tuple[int, ...]) -> None:
         self._parts, self._seed = dict(parts) | {JOURNAL: Journal(), "nothing": nothing}, seed
         self._generators: dict[int, np.random.Generator] = {}
 
-    def find_class(self, module: str, name: str) -> Any:
-        """Returns what a name stands for."""
-        if module == __name__ and name == part.__name__:
-            return self._part
-        return super().find_class(module, name)
-
-    def _part(self, name: str, number: int = 0) -> Any:
+    def __call__(self, name: str, number: int = 0) -> Any:
         if name != "rng":
             return self._parts[name]
         if number not in self._generators:
             self._generators[number] = np.random.default_rng((*self._seed, number))
         return self._generators[number]
+
+
+class _Unpickler(pickle.Unpickler):
+    """Reads a shift, with the parts of a run."""
+
+    def __init__(self, file: io.BytesIO, parts: Mapping[str, Any], seed: tuple[int, ...]) -> None:
+        super().__init__(file)
+        self._parts = _Parts(parts, seed)
+
+    def find_class(self, module: str, name: str) -> Any:
+        """Returns what a name stands for."""
+        if module == __name__ and name == part.__name__:
+            # No method of this object: its memo would refer to it and all that was read, a cycle
+            # that Python does not find.
+            return self._parts
+        return super().find_class(module, name)

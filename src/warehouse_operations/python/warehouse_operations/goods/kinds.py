@@ -13,6 +13,7 @@ SKUS = 1000
 WEIGHT_LEAST, WEIGHT_MOST = 2.0, 8.0
 BUNDLE_LEAST, BUNDLE_MOST = 4, 12
 SPARE = 1.5  # bins on a unit, over the bundles that fill it: some bundles are begun
+MOST_BINS = 1000  # on a unit, however much it holds
 ROUNDING = 1e-9
 
 
@@ -74,8 +75,11 @@ class Goods:
         return sum(self.kinds.weights.values()) / len(self.kinds.weights)
 
     def bins_on(self, unit: int) -> int:
-        """Returns how many bins stand for a unit: more than it holds bundles, as some are begun."""
-        return max(1, math.ceil(SPARE * self.limits[unit] / max(self.bundle_weight, ROUNDING)))
+        """Returns how many bins stand for a unit: more than it holds bundles, as some are begun;
+        1 if no SKU fits on any unit."""
+        if not self.skus:
+            return 1
+        return min(max(1, math.ceil(SPARE * self.limits[unit] / self.bundle_weight)), MOST_BINS)
 
     def items(self) -> list[tuple[str, int]]:
         """Returns the bins of all units: (name, unit)."""

@@ -3,9 +3,13 @@
 
 from typing import Any
 
-from warehouse_vda5050.codec.base import header_json
-from warehouse_vda5050.model import BlockingType, Factsheet, Header, SupportedAction
+from warehouse_vda5050.codec.base import header_json, without_nothing
+from warehouse_vda5050.model import BlockingType, Factsheet, Header, LoadSet, SupportedAction
+from warehouse_vda5050.validation import MessageError
 from warehouse_vda5050.validation.fields import Fields
+
+# Of physicalParameters, with which masters here reckon.
+BODY = ("length", "width", "heightMax", "speedMax", "accelerationMax", "decelerationMax")
 
 
 def factsheet_json(sheet: Factsheet) -> dict[str, Any]:
@@ -97,15 +101,21 @@ def _outline_json(sheet: Factsheet) -> dict[str, Any]:
 
 def _loads_json(sheet: Factsheet) -> dict[str, Any]:
     length, width = sheet.load_size
-    unit = {
-        "setName": "unit",
-        "loadType": sheet.load_type,
-        "loadDimensions": {"length": length, "width": width},
-        "maxWeight": sheet.max_load_mass,
-        "pickTime": sheet.lift_time,
-        "dropTime": sheet.lift_time,
-    }
-    return {"loadPositions": ["lift"], "loadSets": [unit]}
+    unit = LoadSet("unit", sheet.load_type, length, width, max_mass=sheet.max_load_mass)
+    sets = [_load_set_json(loads, sheet) for loads in sheet.load_sets or (unit,)]
+    return {"loadPositions": ["lift"], "loadSets": sets}
+
+
+def _load_set_json(loads: LoadSet, sheet: Factsheet) -> dict[str, Any]:
+    size = without_nothing(length=loads.length, width=loads.width, height=loads.height)
+    fields = without_nothing(
+        setName=loads.name,
+        loadType=loads.load_type,
+        loadDimensions=size if {"length", "width"} <= size.keys() else None,
+        maxWeight=loads.max_mass,
+        agvSpeedLimit=loads.max_speed,
+    )
+    return {**fields, "pickTime": sheet.lift_time, "dropTime": sheet.lift_time}
 
 
 def read_factsheet(fields: Fields, header: Header) -> Factsheet:
@@ -114,6 +124,7 @@ def read_factsheet(fields: Fields, header: Header) -> Factsheet:
     body = fields.object("physicalParameters") or Fields({})
     features = fields.object("protocolFeatures") or Fields({})
     limits = fields.object("protocolLimits") or Fields({})
+    loads = fields.object("loadSpecification") or Fields({})
     lengths = limits.object("maxArrayLens") or Fields({})
     timing = limits.object("timing") or Fields({})
     default = Factsheet()
@@ -130,12 +141,34 @@ def read_factsheet(fields: Fields, header: Header) -> Factsheet:
         body.number("accelerationMax", default.max_acceleration),
         body.number("decelerationMax", default.max_deceleration),
         actions=tuple(_read_action(action) for action in features.objects("agvActions", ())),
+        parameters=tuple(_read_support(row) for row in features.objects("optionalParameters", ())),
         max_nodes=_read_limit(lengths, default.max_nodes),
         zone_types=_read_words(kind, "supportedZones"),
         max_zones=lengths.natural("zoneSet.zones", 0),
         order_interval=max(0.0, timing.number("minOrderInterval", 0.0)),
+        load_sets=tuple(_read_load_set(row) for row in loads.objects("loadSets", ())),
+        silent=tuple(name for name in BODY if not body.has(name)),
         header=header,
     )
+
+
+def _read_load_set(fields: Fields) -> LoadSet:
+    size = fields.object("loadDimensions") or Fields({})
+    speed = "agvSpeedLimit" if fields.has("agvSpeedLimit") else "speedMax"  # 3.0's, renamed
+    return LoadSet(
+        fields.text("setName", ""),
+        fields.text("loadType", ""),
+        size.number("length", None),
+        size.number("width", None),
+        size.number("height", None),
+        fields.number("maxWeight", None),
+        fields.number(speed, None),
+    )
+
+
+def _read_support(fields: Fields) -> tuple[str, str, str]:
+    text = fields.text("description", "")
+    return fields.text("parameter"), fields.text("support", "SUPPORTED"), text
 
 
 def _read_limit(lengths: Fields, default: int) -> int:
@@ -154,13 +187,20 @@ def _read_action(fields: Fields) -> SupportedAction:
     names = _read_words(fields, "actionScopes")
     type, text = fields.text("actionType"), fields.text("actionDescription", "")
     rows = fields.objects("actionParameters", ())
-    return SupportedAction(type, names, text, tuple(_read_parameter(row) for row in rows))
+    words = _read_words(fields, "blockingTypes")
+    blocking = tuple(word for word in BlockingType if word.value in words)
+    if words and not blocking:
+        allowed = ", ".join(word.value for word in BlockingType)
+        where, said = fields.path_of("blockingTypes"), ", ".join(words)[:60]
+        raise MessageError(f"{where} is {said}; some of {allowed} were expected")
+    return SupportedAction(type, names, text, tuple(_read_parameter(r) for r in rows), blocking)
 
 
 def _read_parameter(fields: Fields) -> tuple[str, str, bool, str]:
+    """Returns a parameter; one that is not said to be required is optional."""
     return (
         fields.text("key"),
         fields.text("valueDataType", ""),
-        fields.flag("isOptional", False),
+        fields.flag("isOptional", True),
         fields.text("description", ""),
     )

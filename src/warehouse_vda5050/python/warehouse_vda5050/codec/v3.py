@@ -148,6 +148,9 @@ class CodecV3(CodecV2):
             value["referenceStateHeaderId"] = message.state_id
         if isinstance(message, Factsheet):
             _add_zones(value, message)
+            for loads in value["loadSpecification"]["loadSets"]:
+                if "agvSpeedLimit" in loads:
+                    loads["maximumSpeed"] = loads.pop("agvSpeedLimit")
             action_rows = value["protocolFeatures"]["mobileRobotActions"]
             for row, action in zip(action_rows, message.actions):
                 row["blockingTypes"] = [blocking.value for blocking in action.blocking]

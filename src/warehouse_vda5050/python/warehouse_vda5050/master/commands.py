@@ -10,6 +10,14 @@ class RefusedError(ValueError):
     """A command that a vehicle can't be given; the message is for a person."""
 
 
+class UnfitError(RefusedError):
+    """A unit that a vehicle can't carry, at any time: others have to."""
+
+    def __init__(self, text: str, unit: int) -> None:
+        super().__init__(text)
+        self.unit = unit
+
+
 @dataclass(frozen=True)
 class Follow:
     """A path or a change of one, as warehouse_msgs/FollowPath: points in the frame world [m]."""

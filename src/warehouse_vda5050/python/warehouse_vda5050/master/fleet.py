@@ -4,14 +4,17 @@
 from collections.abc import Iterable, Iterator, Sequence
 
 from warehouse_vda5050.grid import Grid
-from warehouse_vda5050.master.commands import Cancel, Command, Stop
+from warehouse_vda5050.master.commands import Cancel, Command, RefusedError, Stop
+from warehouse_vda5050.master.load_fit import Measure, unknown
 from warehouse_vda5050.master.remote_vehicle import Happened, RemoteVehicle
 from warehouse_vda5050.master.robots_file import RemoteRobot
+from warehouse_vda5050.master.seen import SeenVehicles
 from warehouse_vda5050.master.shadow import Shadow, shadow_of
 from warehouse_vda5050.master.zone_desk import ClosedArea, ZoneDesk
 from warehouse_vda5050.model import (
     Connection,
     Factsheet,
+    InvalidFactsheet,
     ToVehicle,
     VehicleState,
 )
@@ -22,17 +25,71 @@ ALL = 0  # the number that stands for every robot in a Stop
 
 class RemoteFleet:
     """The vehicles of a file of robots. One thread at a time. zones: whether they may keep to zone
-    sets, which 3.0 alone has."""
+    sets, which 3.0 alone has; `measure` returns a storage unit's measures."""
 
     def __init__(
-        self, robots: Iterable[RemoteRobot], grid: Grid, run: str, zones: bool = False
+        self,
+        robots: Iterable[RemoteRobot],
+        grid: Grid,
+        run: str,
+        zones: bool = False,
+        measure: Measure = unknown,
     ) -> None:
-        self._vehicles = {robot.number: RemoteVehicle(robot, grid, run) for robot in robots}
-        self._zones = {
-            vehicle.robot.identity: ZoneDesk(vehicle.robot, vehicle.view, run, grid.spacing)
-            for vehicle in (self._vehicles.values() if zones else ())
-        }
-        self._by_identity = {v.robot.identity: v for v in self._vehicles.values()}
+        self.grid, self._run, self._has_zones, self._measure = grid, run, zones, measure
+        self._areas: tuple[ClosedArea, ...] = ()
+        self._vehicles: dict[int, RemoteVehicle] = {}
+        self._zones: dict[Identity, ZoneDesk] = {}
+        self._by_identity: dict[Identity, RemoteVehicle] = {}
+        self.roster = SeenVehicles()
+        for robot in robots:
+            self._add(robot)
+
+    def _add(self, robot: RemoteRobot) -> RemoteVehicle:
+        vehicle = RemoteVehicle(robot, self.grid, self._run, self._measure)
+        self._vehicles[robot.number] = self._by_identity[robot.identity] = vehicle
+        if self._has_zones:
+            desk = ZoneDesk(robot, vehicle.view, self._run, self.grid.spacing)
+            self._zones[robot.identity] = desk
+            if self._areas:
+                desk.close(self._areas)
+        return vehicle
+
+    def add(self, robot: RemoteRobot, now: float) -> None:
+        """Adds a vehicle that was seen at the broker. Raises RefusedError: it is there already."""
+        identity = robot.identity
+        if other := self._by_identity.get(identity):
+            name = f"{identity.manufacturer}/{identity.serial}"
+            raise RefusedError(f"{name} is kiva{other.robot.number} already")
+        self._add(robot)
+        newest = self.roster.get(identity)
+        if newest is None:
+            return
+        if newest.connection is not None:
+            self._deliver(identity, Connection(newest.connection), now)
+        for message in (newest.sheet, newest.state):
+            if message is not None:
+                self._deliver(identity, message, now)
+
+    def check_removable(self, number: int) -> None:
+        """Raises RefusedError unless a vehicle is there, idle and without a load."""
+        vehicle = self._vehicles.get(number)
+        if vehicle is None:
+            raise RefusedError(f"kiva{number} is no vehicle of this master")
+        if not vehicle.is_idle:
+            raise RefusedError(f"kiva{number} carries out a command: make it manual, and wait")
+        if vehicle.load:
+            raise RefusedError(f"kiva{number} carries storage_unit{vehicle.load}: have it put down")
+
+    def remove(self, number: int) -> None:
+        """Removes a vehicle. Raises RefusedError as check_removable()."""
+        self.check_removable(number)
+        vehicle = self._vehicles.pop(number)
+        self._zones.pop(vehicle.robot.identity, None)
+        del self._by_identity[vehicle.robot.identity]
+
+    def of(self, identity: Identity) -> RemoteVehicle | None:
+        """Returns the vehicle of a name, None if it is no robot of this warehouse."""
+        return self._by_identity.get(identity)
 
     @property
     def vehicles(self) -> Sequence[RemoteVehicle]:
@@ -41,6 +98,7 @@ class RemoteFleet:
 
     def set_grid(self, grid: Grid) -> None:
         """Takes over the cells of the floor as it is now."""
+        self.grid = grid
         for vehicle in self._vehicles.values():
             vehicle.set_grid(grid)
 
@@ -52,10 +110,27 @@ class RemoteFleet:
         elif kiva_id in self._vehicles:
             self._vehicles[kiva_id].command(command)
 
+    def expect_unit(self, kiva_id: int, unit: int) -> None:
+        """Lets a vehicle say that it can't carry a unit that it is to fetch."""
+        if kiva_id in self._vehicles:
+            self._vehicles[kiva_id].expect_unit(unit)
+
     def take(
-        self, identity: Identity, message: VehicleState | Connection | Factsheet, now: float
+        self,
+        identity: Identity,
+        message: VehicleState | Connection | Factsheet | InvalidFactsheet,
+        now: float,
     ) -> None:
-        """Takes a vehicle's message; drops those of vehicles that are in no file."""
+        """Takes a vehicle's message; those of vehicles that are in no file are seen alone."""
+        self.roster.take(identity, message)
+        self._deliver(identity, message, now)
+
+    def _deliver(
+        self,
+        identity: Identity,
+        message: VehicleState | Connection | Factsheet | InvalidFactsheet,
+        now: float,
+    ) -> None:
         vehicle = self._by_identity.get(identity)
         if vehicle is None:
             return
@@ -64,6 +139,8 @@ class RemoteFleet:
             vehicle.take_state(message, now)
             if zones and vehicle.view.state is message:
                 zones.take_state(message)
+        elif isinstance(message, InvalidFactsheet):
+            vehicle.refuse_factsheet(message.fault)
         elif isinstance(message, Factsheet):
             vehicle.take_factsheet(message)
             if zones:
@@ -73,7 +150,7 @@ class RemoteFleet:
 
     def close_zones(self, areas: Iterable[ClosedArea]) -> None:
         """Takes the closed zones of the floor as they are now."""
-        areas = tuple(areas)
+        areas = self._areas = tuple(areas)
         for zones in self._zones.values():
             zones.close(areas)
 

@@ -11,6 +11,7 @@ from warehouse_vda5050.model import Action, Edge, Node, Position, VehicleOrder
 
 # A vehicle takes a node as reached that is within its deviation: without these it does not move.
 EXACTLY = (("allowedDeviationXY", NEAR), ("allowedDeviationTheta", SQUARE))
+EdgeDemands = Callable[[Point, Point], tuple[tuple[str, float], ...]]
 PlaceNode = Callable[[Point], tuple[str, Position]]  # node id, and where the vehicle has it
 
 
@@ -35,6 +36,7 @@ class Journey:
     actions: tuple[Action, ...] = ()  # at the last point
     lift: Lift | None = None  # that it is made for
     heading: float | None = None  # of a path that is to put the vehicle straight [rad]
+    edge_demands: EdgeDemands = field(default=lambda _start, _end: (), repr=False)
     max_nodes: int = 1000  # of one message; what is beyond comes in the next
 
     def change(self, command: Follow) -> None:
@@ -124,7 +126,9 @@ class Journey:
 
     def _edge(self, i: int, place: PlaceNode) -> Edge:
         start, end = (place(point)[0] for point in self.points[i : i + 2])
-        return Edge(f"{start}-{end}", 2 * i + 1, i + 1 < self.released, start, end)
+        demands = self.edge_demands(*self.points[i : i + 2])
+        released = i + 1 < self.released
+        return Edge(f"{start}-{end}", 2 * i + 1, released, start, end, demands=demands)
 
 
 def begin(command: Follow, order_id: str, heading: float) -> Journey:

@@ -13,14 +13,23 @@ from enum import Enum, auto
 from warehouse_vda5050.driver import Point
 from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.master import journey
-from warehouse_vda5050.master.commands import Cancel, Command, Follow, Lift, RefusedError, Stop
+from warehouse_vda5050.master.abilities import Abilities
+from warehouse_vda5050.master.commands import (
+    Cancel,
+    Command,
+    Follow,
+    Lift,
+    RefusedError,
+    Stop,
+    UnfitError,
+)
 from warehouse_vda5050.master.instant import MOST_TIMES, RESEND, InstantRequests
 from warehouse_vda5050.master.journey import Journey
+from warehouse_vda5050.master.load_fit import Measure, unknown
 from warehouse_vda5050.master.robots_file import RemoteRobot
 from warehouse_vda5050.master.vehicle_view import VehicleView
 from warehouse_vda5050.master.whereabouts import jumped, left_way, missed, square
 from warehouse_vda5050.model import (
-    Action,
     ActionStatus,
     ConnectionState,
     Factsheet,
@@ -88,11 +97,14 @@ class Happened:
 
 class RemoteVehicle:
     """Drives one vehicle. `run` distinguishes the orders of this run from those of others. There is
-    a journey while a command is UNDER_WAY or CANCELLING."""
+    a journey while a command is UNDER_WAY or CANCELLING. `measure` returns a unit's measures."""
 
-    def __init__(self, robot: RemoteRobot, grid: Grid, run: str) -> None:
-        self.robot, self._grid, self._run = robot, grid, run
+    def __init__(
+        self, robot: RemoteRobot, grid: Grid, run: str, measure: Measure = unknown
+    ) -> None:
+        self.robot, self._grid, self._run, self._measure = robot, grid, run, measure
         self.view = VehicleView(robot.frame)
+        self.abilities = Abilities(robot.action_parameters)
         self._instants = InstantRequests(f"{run}-{robot.number}")
         self._state_id = self._instants.ask("stateRequest")  # else the first may be 30 s away
         self._count = 0  # of orders
@@ -102,8 +114,8 @@ class RemoteVehicle:
         self._sent_at, self._times = 0.0, 0
         self._refusals, self._not_before = 0, 0.0  # in a row, and until when nothing is ordered
         self._fatal: frozenset[str] = frozenset()  # of its last state
-        self._sheet: Factsheet | None = None
         self._events: list[Happened] = []
+        self._unread_sheet = ""  # why: of a factsheet that could not be read
         self.load = 0  # the number of the unit that it carries
         self.path_id = self.reached = 0
         self.last_end: EventKind | None = None
@@ -118,8 +130,20 @@ class RemoteVehicle:
         """Takes a command; the answer is an event."""
         try:
             self._obey(command)
+        except UnfitError as refusal:
+            self._happened(EventKind.REFUSED, str(refusal), refusal.unit)
         except RefusedError as refusal:
             self._happened(EventKind.REFUSED, str(refusal))
+
+    def expect_unit(self, unit: int) -> None:
+        """Takes notice that it is to fetch a unit; one that it can't carry is refused at once,
+        before it drives there."""
+        try:
+            loads = self.abilities.check_unit(unit, self._measure(unit)).loads
+            for kind in ("pick", "drop"):
+                self.abilities.action(kind, "", unit, loads)
+        except RefusedError as refusal:
+            self._happened(EventKind.REFUSED, str(refusal), unit)
 
     def take_state(self, state: VehicleState, now: float) -> None:
         """Takes the vehicle's state; drops one that is older than the last."""
@@ -134,14 +158,28 @@ class RemoteVehicle:
         if self._journey:
             self._advance(self._journey, state, now)
         if was_there:
-            self._check_place(jumped(before, self.view.pose, now - heard_at))
+            fastest = self.abilities.top_speed
+            self._check_place(jumped(before, self.view.pose, now - heard_at, fastest))
         self._end_foreign(state)
 
     def take_factsheet(self, sheet: Factsheet) -> None:
-        """Adapts what is to come to what the vehicle can, the rest of an order as well."""
-        self._sheet = sheet
+        """Adapts what is to come to what the vehicle can, the rest of an order as well; reports
+        the faults of a factsheet that were not known yet."""
+        before = self.abilities.sheet
+        if sheet.faults and (before is None or sheet.faults != before.faults):
+            self._happened(
+                EventKind.REFUSED, f"its factsheet is invalid: {'; '.join(sheet.faults)}"
+            )
+        self.abilities.sheet, self._unread_sheet = sheet, ""
+        self.view.speedometer.fastest = self.abilities.top_speed
         if self._journey:
             self._journey.max_nodes = sheet.max_nodes
+
+    def refuse_factsheet(self, fault: str) -> None:
+        """Reports a factsheet that can't be read; what was known before goes on to hold."""
+        if fault != self._unread_sheet:
+            self._unread_sheet = fault
+            self._happened(EventKind.REFUSED, f"its factsheet can't be read: {fault}")
 
     def take_connection(self, state: ConnectionState, now: float) -> None:
         """Notes whether the vehicle is connected."""
@@ -173,6 +211,13 @@ class RemoteVehicle:
     def is_idle(self) -> bool:
         """Whether it takes a new command."""
         return self._phase is Phase.IDLE
+
+    @property
+    def sheet_faults(self) -> tuple[str, ...]:
+        """What is invalid in its factsheet, in sentences."""
+        if self._unread_sheet:
+            return (self._unread_sheet,)
+        return self.abilities.sheet.faults if self.abilities.sheet else ()
 
     @property
     def order_id(self) -> str:
@@ -220,6 +265,8 @@ class RemoteVehicle:
         heading = square(self.view.pose[2]) - self.robot.frame.theta
         way = journey.begin(command, self._next_id(), math.remainder(heading, math.tau))
         self._check_start(way.points[0])
+        self.abilities.check_path()
+        way.edge_demands = self.abilities.edge_demands
         self._begin(way, f"follow path {way.path_id}")
         self.path_id, self.reached = way.path_id, 1
 
@@ -230,32 +277,18 @@ class RemoteVehicle:
         if not command.up and not self.load:
             raise RefusedError("it carries nothing")
         unit = command.shelf_id or self.load
+        loads = self.abilities.loads
+        if command.up:
+            loads = self.abilities.check_unit(unit, self._measure(unit)).loads
+        name = f"{self._run}-{self.robot.number}-a{self._count}"
+        action = self.abilities.action("pick" if command.up else "drop", name, unit, loads)
         x, y, _ = self.view.pose
         here = self._grid.position(self._grid.cell_at(x, y))
-        action = self._action("pick" if command.up else "drop", unit)
         lift = Lift(command.up, unit)
         way = Journey(0, self._next_id(), [here], 1, actions=(action,), lift=lift)
+        self.abilities.loads = loads
         self._begin(way, f"{'carry' if command.up else 'drop'} {unit}")
         self.path_id = self.reached = 0
-
-    def _action(self, kind: str, unit: int) -> Action:
-        values = {"stationType": "floor", "loadType": "unit", "loadId": f"storage_unit{unit}"}
-        if names := self._parameters_of(kind):
-            values = {name: value for name, value in values.items() if name in names}
-        parameters = tuple({**values, **self.robot.action_parameters}.items())
-        name = f"{self._run}-{self.robot.number}-a{self._count}"
-        return Action(kind, name, parameters=parameters)
-
-    def _parameters_of(self, kind: str) -> tuple[str, ...]:
-        """Returns the parameters that the factsheet has for an action at nodes; none if it says
-        nothing of actions. Raises RefusedError if it has others alone."""
-        actions = self._sheet.actions if self._sheet else ()
-        if not actions:
-            return ()
-        fit = [action for action in actions if action.type == kind and "NODE" in action.scopes]
-        if not fit:
-            raise RefusedError(f"its factsheet has no {kind} at nodes")
-        return tuple(name for name, *_ in fit[0].parameters)
 
     def _go_to(self, phase: Phase) -> None:
         """Enters a phase. Raises ValueError where it does not follow."""
@@ -266,8 +299,7 @@ class RemoteVehicle:
     def _begin(self, way: Journey, text: str) -> None:
         self._go_to(Phase.UNDER_WAY)
         self._journey, self._times = way, 0
-        if self._sheet:
-            way.max_nodes = self._sheet.max_nodes
+        way.max_nodes = self.abilities.max_nodes or way.max_nodes
         self.last_end = None
         self._happened(EventKind.ACCEPTED, text, way.lift.shelf_id if way.lift else 0)
 
@@ -327,7 +359,8 @@ class RemoteVehicle:
     def _place(self, point: Point) -> tuple[str, Position]:
         cell = self._grid.cell_at(*point)
         x, y = self.robot.frame.to_vehicle(*point)
-        return self._grid.node_id(cell), Position(x, y, map_id=self.view.map_id)
+        map_id = self.robot.map_id or self.view.map_id
+        return self.robot.node_id(cell), Position(x, y, map_id=map_id)
 
     def _due_order(self, now: float) -> VehicleOrder | None:
         """Returns the next order; or the last one again, while the vehicle does not confirm it."""
@@ -336,7 +369,7 @@ class RemoteVehicle:
             return None
         if way.awaits_answer:
             return self._again(way, now)
-        if now < max(self._not_before, self._sent_at + self._order_interval):
+        if now < max(self._not_before, self._sent_at + self.abilities.order_interval):
             return None
         if not way.is_known and (why := self.view.why_not):
             self._end(EventKind.BLOCKED, why)
@@ -346,17 +379,12 @@ class RemoteVehicle:
             self._sent_at, self._times = now, 0
         return order
 
-    @property
-    def _order_interval(self) -> float:
-        """The least time between two orders [s]."""
-        return self._sheet.order_interval if self._sheet else 0.0
-
     def _again(self, way: Journey, now: float) -> VehicleOrder | None:
         """Returns the last order once more, if that is due.
 
         An update is sent for as long as it takes: the vehicle may have it, and its states be lost.
         """
-        if now < self._sent_at + max(RESEND, self._order_interval):
+        if now < self._sent_at + max(RESEND, self.abilities.order_interval):
             return None
         self._sent_at, self._times = now, self._times + 1
         if self._times % ASKS_AFTER == 0:

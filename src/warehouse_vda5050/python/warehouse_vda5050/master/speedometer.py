@@ -20,6 +20,7 @@ REST: Twist = (0.0, 0.0, 0.0)
 class Speedometer:
     """The velocity of one vehicle in the frame world. Times are wall clock [s] of any zero."""
 
+    fastest: float = FASTEST  # that it drives [m/s]
     _twist: Twist = REST
     _noted_at: float = -math.inf
     _pose: Pose | None = None  # where it was at _posed_at
@@ -67,6 +68,6 @@ class Speedometer:
         if self._pose is None or seconds > TRUSTED:
             return REST
         vx, vy = ((b - a) / seconds for a, b in zip(self._pose[:2], pose[:2]))
-        if math.hypot(vx, vy) > FASTEST:
+        if math.hypot(vx, vy) > self.fastest:
             return REST
         return vx, vy, math.remainder(pose[2] - self._pose[2], math.tau) / seconds

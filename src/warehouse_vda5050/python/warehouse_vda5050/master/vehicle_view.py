@@ -85,6 +85,13 @@ class VehicleView:
         return [self.frame.to_world(x, y)[:2] for x, y in points]
 
     @property
+    def waypoints(self) -> list[tuple[float, float, float]]:
+        """The points that it says to reach next, x y in the frame world [m], and when [s since
+        1970]; [] if it does not say."""
+        points = self.state.intermediate if self.state else ()
+        return [(*self.frame.to_world(p.x, p.y)[:2], p.eta) for p in points]
+
+    @property
     def is_localized(self) -> bool:
         """Whether it knows where it is."""
         at = self.state.position if self.state else None

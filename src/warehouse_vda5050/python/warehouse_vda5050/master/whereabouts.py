@@ -8,15 +8,16 @@ from warehouse_vda5050.driver import Point
 from warehouse_vda5050.master.frame import Pose
 
 JUMP = 1.0  # largest distance between two states beyond what the time allows [m]
-FASTEST = 3.0  # that a vehicle drives [m/s]
+FASTEST = 3.0  # that a vehicle drives if its factsheet does not say more [m/s]
 NEAR = 0.05  # largest distance from a place where it has to stand exactly [m]
 SQUARE = 0.05  # largest error of a heading [rad]
 
 
-def jumped(before: Pose, now: Pose, seconds: float) -> str:
-    """Returns where a vehicle jumped from and to, '' if it can have driven that in the time."""
+def jumped(before: Pose, now: Pose, seconds: float, fastest: float = FASTEST) -> str:
+    """Returns where a vehicle jumped from and to, '' if it can have driven that in the time, at
+    its `fastest` [m/s]."""
     way = math.dist(before[:2], now[:2])
-    if way <= JUMP + FASTEST * max(0.0, seconds):
+    if way <= JUMP + fastest * max(0.0, seconds):
         return ""
     return (
         f"the vehicle jumped {way:.1f} m, from {before[0]:.2f}, {before[1]:.2f}"

@@ -42,7 +42,7 @@ class ZoneDesk:
 
     def __init__(self, robot: RemoteRobot, view: VehicleView, run: str, spacing: float) -> None:
         self._robot, self._view, self._spacing = robot, view, spacing
-        self._name = f"{PREFIX}{run}"
+        self._name = f"{PREFIX}{run}-{robot.number}"
         self._instants = InstantRequests(f"{run}-{robot.number}-zones")
         self._sheet = Factsheet()
         self._areas: tuple[ClosedArea, ...] = ()
@@ -87,7 +87,8 @@ class ZoneDesk:
             sent += self._bring(self._set, state, now)
         responses = tuple(self._responses(state, now))
         sent += [Responses(responses)] if responses else []
-        instants = self._instants.due(now)
+        # A vehicle in another mode is a person's: it is sent no actions.
+        instants = self._instants.due(now) if self._view.takes_orders else None
         return [*sent, instants] if instants else sent
 
     # --- zone sets

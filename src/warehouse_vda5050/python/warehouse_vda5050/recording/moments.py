@@ -18,7 +18,7 @@ Item = TypeVar("Item")
 
 @dataclass(frozen=True)
 class Doing:
-    """What a vehicle told of itself in a state. base, horizon: the nodes ahead, by whether they are
+    """What a state reports of a vehicle. base, horizon: the nodes ahead, by whether they are
     released."""
 
     order: str = ""
@@ -94,7 +94,7 @@ class Moments:
         return len(self._tracks)
 
     def at(self, time: float) -> Iterator[Moment]:
-        """Yields the vehicles that had told anything by then [s since 1970]."""
+        """Yields the vehicles of which a message had come by then [s since 1970]."""
         for identity, track in self._tracks.items():
             connection, doing = track.connection.at(time), track.doing.at(time)
             if connection is None and doing is None:

@@ -7,7 +7,7 @@ to this node, and shows where they are by /warehouse/shadows.
 
 import math
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from queue import Empty, SimpleQueue
 
 import rospy
@@ -19,20 +19,29 @@ from warehouse_client.warehouse import WarehouseClient
 from warehouse_layout.message_enums import EventKind as Kind
 from warehouse_layout.message_enums import FailureKind, RobotMode
 from warehouse_layout.models import models
-from warehouse_msgs.msg import ClosedZones, Event, FleetState, Scenery, Vda5050
+from warehouse_msgs.msg import (
+    ClosedZones,
+    Event,
+    FleetState,
+    Scenery,
+    TransportEvent,
+    Vda5050,
+)
 from warehouse_msgs.srv import SetRobotMode
 from warehouse_vda5050.broker_topic import BrokerTopic, masters_message
 from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.master.commands import Command
 from warehouse_vda5050.master.fleet import RemoteFleet
+from warehouse_vda5050.master.onboarded_file import OnboardedFile
 from warehouse_vda5050.master.remote_vehicle import Happened, RemoteVehicle
-from warehouse_vda5050.master.robots_file import RemoteRobot
 from warehouse_vda5050.master.shadow import Shadow
 from warehouse_vda5050.master.zone_desk import ClosedArea
 from warehouse_vda5050.model import ToVehicle
 from warehouse_vda5050.mqtt.master_link import FromVehicle
 from warehouse_vda5050.ros.commands import CommandTopics
 from warehouse_vda5050.ros.floor import grid_of, read_map
+from warehouse_vda5050.ros.onboarding_desk import OnboardingDesk
+from warehouse_vda5050.ros.unit_scales import UnitScales
 from warehouse_vda5050.topics import Identity
 
 SET_MODE = "warehouse/set_robot_mode"
@@ -44,22 +53,24 @@ MODES = {True: RobotMode.AUTOMATIC, False: RobotMode.MANUAL}  # by whether the v
 class Master:
     """Hosts a RemoteFleet: take() gets the messages of vehicles, `send` sends those to them.
 
-    run() alone touches the fleet; commands, which come in threads of rospy, wait for it. `run` is
+    run() alone touches the fleet; commands, which come in threads of rospy, wait for it. `file` has
+    the robots. `run` is
     a word that no run before had, `broker` its broker's address as shown to people, `zones` whether
     vehicles may keep to zone sets, `poll` waits at most some seconds for messages of vehicles.
     """
 
     def __init__(
         self,
-        robots: Iterable[RemoteRobot],
+        file: OnboardedFile,
         warehouse: WarehouseClient,
         run: str,
         broker: str,
         zones: bool = False,
     ) -> None:
-        self._robots, self._run, self._broker = list(robots), run, broker
+        self._robots, self._run, self._broker = file.robots(), run, broker
         self._has_zones = zones
         self._warehouse = warehouse
+        self._scales = UnitScales(rospy, warehouse)
         self._fleet: RemoteFleet | None = None
         self._next_shadows = 0.0
         self._has_news = False  # since the shadows were published
@@ -71,9 +82,23 @@ class Master:
         self._events = rospy.Publisher("warehouse/events", Event, queue_size=1000)
         self._at_broker = BrokerTopic()
         self._set_mode = rospy.ServiceProxy(SET_MODE, SetRobotMode)
-        numbers = frozenset(robot.number for robot in self._robots)
-        CommandTopics(numbers, self._post_command, self._timeline)
+        self._numbers = {robot.number for robot in self._robots}
+        CommandTopics(self._numbers, self._post_command, self._timeline)
         subscribe(rospy, "warehouse/zones", ClosedZones, self._on_zones, queue_size=1)
+        subscribe(
+            rospy, "warehouse/transports", TransportEvent, self._on_transport, queue_size=1000
+        )
+
+        OnboardingDesk(self._posted.put, file, warehouse, broker, self._join, self._leave)
+
+    def _join(self, number: int) -> None:
+        """Commands to a robot are this node's from now on."""
+        self._numbers.add(number)
+
+    def _leave(self, number: int) -> None:
+        self._numbers.discard(number)
+        self._spawned.discard(number)
+        self._modes.pop(number, None)
 
     def take(self, identity: Identity, message: FromVehicle) -> None:
         """Takes a vehicle's message; called by poll()."""
@@ -83,7 +108,9 @@ class Master:
 
     def run(self, send: Send, poll: Callable[[float], None]) -> None:
         """Serves until ROS shuts down."""
-        fleet = self._fleet = RemoteFleet(self._robots, self._grid(), self._run, self._has_zones)
+        fleet = self._fleet = RemoteFleet(
+            self._robots, self._grid(), self._run, self._has_zones, self._scales.measure
+        )
         while not rospy.is_shutdown():
             poll(PERIOD / 4)
             self._take_posted(fleet)
@@ -110,6 +137,10 @@ class Master:
             for z in message.zones
         )
         self._posted.put(lambda fleet: fleet.close_zones(areas))
+
+    def _on_transport(self, event: TransportEvent) -> None:
+        if event.kind == TransportEvent.ASSIGNED:
+            self._posted.put(lambda fleet: fleet.expect_unit(event.kiva_id, event.shelf_id))
 
     def _timeline(self) -> int:
         return self._warehouse.timeline if self._warehouse.fleet is not None else 0

@@ -172,5 +172,5 @@ def _error(zone: Zone, text: str, precise: Predefined | None) -> Error:
 def _lost(zone: Zone) -> Error:
     text = f"the release of {_named(zone)} is lost, and the robot is in it"
     if zone.word == "CONTINUE":
-        return _error(zone, f"{text}; it goes on, as releaseLossBehavior is", None)
+        return _error(zone, f"{text}; it goes on, as releaseLossBehavior is CONTINUE", None)
     return _error(zone, text, Predefined.RELEASE_LOST)

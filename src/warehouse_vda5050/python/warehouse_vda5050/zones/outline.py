@@ -31,7 +31,7 @@ def overlaps(polygon: Sequence[Point], box: Box) -> bool:
     for axis, half in ((0, box.length / 2), (1, box.width / 2)):
         for sign in (1, -1):
             rest = _cut(rest, axis, sign, half)
-    return abs(_area(rest)) > LEAST_AREA
+    return abs(area(rest)) > LEAST_AREA
 
 
 def _cut(polygon: list[Point], axis: int, sign: int, half: float) -> list[Point]:
@@ -47,7 +47,8 @@ def _cut(polygon: list[Point], axis: int, sign: int, half: float) -> list[Point]
     return kept
 
 
-def _area(polygon: Sequence[Point]) -> float:
+def area(polygon: Sequence[Point]) -> float:
+    """Returns the area of a polygon, above 0 if its vertices are counterclockwise [m²]."""
     return sum(a[0] * b[1] - b[0] * a[1] for a, b in _sides(polygon)) / 2
 
 

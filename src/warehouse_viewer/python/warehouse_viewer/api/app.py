@@ -31,11 +31,11 @@ from warehouse_viewer.page.source import Source
 from warehouse_viewer.replay.live import LiveRecording
 from warehouse_viewer.replay.live_figures import LiveFigures
 from warehouse_viewer.replay.memory import SECONDS
-from warehouse_viewer.ros.command_ears import CommandEars
 from warehouse_viewer.ros.commander import Commander
 from warehouse_viewer.ros.coordination import Coordination
 from warehouse_viewer.ros.emergency_stop import EmergencyStop
 from warehouse_viewer.ros.feed import Feed
+from warehouse_viewer.ros.heard_commands import CommandNotes, hear
 from warehouse_viewer.ros.operations_client import OperationsClient
 from warehouse_viewer.ros.shift_feed import ShiftFeed
 from warehouse_viewer.ros.simulation import Simulation
@@ -106,7 +106,7 @@ class Viewer:
             self._tell,
         )
         self.commands = CommandLog(lambda: self.monitor.now)
-        self._feed, self._ears = feed, CommandEars(ros, self.commands)
+        hear(ros, self.stop.hear, CommandNotes(ros, self.commands).note)
         self.metrics = Metrics(feed, operations)
         self.backend = ApiBackend(
             feed,
@@ -151,8 +151,6 @@ class Viewer:
         self.changes.note("transports", event.transport_id, self.transports.add(event))
 
     def _on_message(self) -> None:
-        if self._feed["fleet"]:
-            self._ears.begin()
         self.hub.notify()
 
     def application(self, token: str = "", rate: float = 100) -> AccessControl:

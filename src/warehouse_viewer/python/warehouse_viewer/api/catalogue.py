@@ -2,7 +2,8 @@
 """Robots, storage units, items and the warehouse, as the HTTP API shows them."""
 
 import json
-from collections.abc import Collection
+from collections.abc import Collection, Iterable, Sequence
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -19,18 +20,21 @@ from warehouse_msgs.msg import (
     Vda5050,
     WarehouseObjects,
 )
+from warehouse_msgs.srv import Vda5050SeenResponse
 from warehouse_viewer.api.schemas.fleet import (
     Coordinator,
     RobotsByActivity,
     RobotsByMode,
     RobotsByWork,
     TransportCounts,
-    Vda5050Robot,
     Waiting,
 )
 from warehouse_viewer.api.schemas.models import Pose, Robot, Thing
 from warehouse_viewer.api.schemas.pydantic_versions import as_json, names_of
+from warehouse_viewer.api.schemas.vda5050 import Vda5050Robot, Vda5050Vehicle
 from warehouse_viewer.page.activities import Activity, activity, shown_status, wait_too_long
+
+CONNECTIONS = ("ONLINE", "OFFLINE", "CONNECTIONBROKEN")  # as Vda5050 counts them
 
 
 def robots(fleet: FleetState, waiting: Collection[int] = ()) -> list[Robot]:
@@ -90,7 +94,9 @@ def activities(fleet: FleetState, waiting: Collection[int] = ()) -> RobotsByActi
 def at_broker(message: Vda5050) -> list[Vda5050Robot]:
     """Returns the robots of a Vda5050 message as the API describes them."""
     by = ("OUTSIDE_MASTER", "COORDINATOR")[message.direction]
-    states = ("ONLINE", "OFFLINE", "CONNECTIONBROKEN")
+    planned = _parted(message.planned_points, zip(message.planned_x, message.planned_y))
+    waypoints = zip(message.waypoint_x, message.waypoint_y, message.waypoint_time)
+    reached = _parted(message.waypoints, waypoints)
     return [
         Vda5050Robot(
             id=number,
@@ -98,13 +104,41 @@ def at_broker(message: Vda5050) -> list[Vda5050Robot]:
             manufacturer=message.manufacturer[i],
             serial=message.serial[i],
             broker=message.broker,
-            connection=states[bytes(message.connection)[i]],
+            connection=CONNECTIONS[bytes(message.connection)[i]],
             driven=message.driven[i],
             order=message.order[i],
             errors=message.errors[i].splitlines(),
             faults=message.faults[i].split(", ") if message.faults[i] else [],
+            planned_path=planned[i],
+            intermediate_path=[{"x": x, "y": y, "time": time} for x, y, time in reached[i]],
         )
         for i, number in enumerate(message.kiva_id)
+    ]
+
+
+def _parted(counts: Sequence[int], rows: Iterable[Any]) -> list[list[Any]]:
+    """Returns rows as lists of those lengths."""
+    left = iter(rows)
+    return [list(islice(left, count)) for count in counts]
+
+
+def seen_at_broker(answer: Vda5050SeenResponse) -> list[Vda5050Vehicle]:
+    """Returns the vehicles of an answer of the master as the API describes them."""
+    return [
+        Vda5050Vehicle(
+            manufacturer=answer.manufacturer[i],
+            serial=answer.serial[i],
+            id=number or None,
+            connection=CONNECTIONS[bytes(answer.connection)[i]],
+            mode=answer.mode[i],
+            position=[answer.x[i], answer.y[i], answer.theta[i]] if answer.placed[i] else None,
+            map_id=answer.map_id[i],
+            last_node=answer.last_node[i],
+            factsheet=answer.factsheet[i],
+            abilities=answer.abilities[i].splitlines(),
+            misfits=answer.misfits[i].splitlines(),
+        )
+        for i, number in enumerate(answer.kiva_id)
     ]
 
 

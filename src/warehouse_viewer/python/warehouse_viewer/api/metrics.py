@@ -43,7 +43,7 @@ SHIFT_GAUGES = (
     ("stock_ratio", "Pieces over room for pieces.", "stock_level"),
 )
 FORECAST = (
-    ("done", "Orders done by the end of the last forecast."),
+    ("done", "Orders done by the end of the last forecast without changes."),
     ("open", "Orders that are open then."),
     ("late", "Orders that are late by then."),
 )
@@ -105,7 +105,7 @@ class Metrics(Collector):
             turnover = {p: getattr(kpis.order_turnover_s, n) for n, p in PERCENTILES.items()}
             text = "From an order's arrival to its completion."
             yield _by_label("order_turnover_seconds", text, "percentile", turnover)
-        if forecast := self._shift["forecasts"]:
+        if forecast := self._shift.forecast:
             yield from _forecast(forecast)
         if message := self._shift["stations"]:
             yield from _stations(message.stations)
@@ -124,9 +124,10 @@ class Metrics(Collector):
 
 
 def _forecast(result: ForecastResult) -> Iterator[Metric]:
-    """Yields the last forecast's band at its end."""
+    """Yields the band at the end of the last forecast of the shift as it is."""
     made_at = result.made_at
-    yield _gauge("forecast_made_at_seconds", "Simulated time of the last forecast.", made_at)
+    text = "Simulated time of the last forecast without changes."
+    yield _gauge("forecast_made_at_seconds", text, made_at)
     yield _gauge("forecast_minutes", "How far it looks ahead.", result.minutes)
     for name, text in FORECAST:
         bands = {q: getattr(result, f"{name}_{q}") for q in QUANTILES}

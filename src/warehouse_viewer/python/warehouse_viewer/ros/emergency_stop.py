@@ -7,11 +7,11 @@ import threading
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from warehouse_client.message_check import subscribe
 from warehouse_msgs.msg import Stop
 
 if TYPE_CHECKING:
     from warehouse_msgs.msg import FleetState
+    from warehouse_viewer.ros.heard_commands import Heard
 
 SETTLES = 40.0  # for which robots may stand yet after a stop [s], simulated
 ALL = 0  # the number that stands for every robot in a Stop
@@ -28,7 +28,8 @@ class Hold(NamedTuple):
 class EmergencyStop:
     """Stops all robots over /stop, and those that are added or restored while the stop holds.
 
-    Stops that other clients publish for the whole fleet hold here, too. `ros` is rospy.
+    Stops that other clients publish for the whole fleet hold here, too, once `hear` has them. `ros`
+    is rospy.
     """
 
     def __init__(self, ros: ModuleType) -> None:
@@ -39,7 +40,7 @@ class EmergencyStop:
         self._hold = self._kept()
         self._has_stopped = self._hold is not None
         self._released: float | None = None  # [s], simulated
-        subscribe(ros, "stop", Stop, self._on_stop)
+        self._topic = ros.resolve_name("stop")
 
     @property
     def hold(self) -> Hold | None:
@@ -82,11 +83,14 @@ class EmergencyStop:
         elif before and before[0] != world[0] and self._has_stopped:
             self._publish(False)  # a checkpoint of during the stop has stopped robots
 
-    def _on_stop(self, message: Stop) -> None:
-        """Takes a stop of another client, or its end."""
+    def hear(self, command: Heard) -> None:
+        """Takes a stop of the fleet by another client, or its end."""
+        if command.topic != self._topic or command.fields["kiva_id"] != ALL:
+            return
+        is_stop = bool(command.fields["stop"])
         with self._lock:
-            if message.kiva_id == ALL and message.stop != (self._hold is not None):
-                self._set(Hold("", self._now) if message.stop else None)
+            if is_stop != (self._hold is not None):
+                self._set(Hold("", self._now) if is_stop else None)
 
     def _publish(self, stop: bool) -> None:
         self._publisher.publish(Stop(kiva_id=ALL, stop=stop))

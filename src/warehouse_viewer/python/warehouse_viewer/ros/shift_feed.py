@@ -53,6 +53,11 @@ class ShiftFeed:
         """Whether a shift is running."""
         return self._subscribers["stations"].get_num_connections() > 0
 
+    @property
+    def forecast(self) -> ForecastResult | None:
+        """The newest forecast of the shift as it is, without changes; None where no shift runs."""
+        return self.forecasts.plain if self.runs else None
+
     def __getitem__(self, name: str) -> Any:
         is_current = self.runs or name == "notices"  # such as why there is no shift
         return self._messages.get(name) if is_current else None

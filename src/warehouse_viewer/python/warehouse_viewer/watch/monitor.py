@@ -181,7 +181,7 @@ class Monitor:
             pending.append(Trouble("NO_COORDINATOR", "coordinator", text))
         pending += troubles.of_stations(stations, self.now, self.stations.starved)
         pending += self._moments.lasting(self.now)
-        pending += troubles.of_forecast(self._shift["forecasts"], self.now)
+        pending += troubles.of_forecast(self._shift.forecast, self.now)
         notices = self._shift["notices"]
         pending += troubles.of_notices(notices.notices if notices else ())
         return troubles.of_stop(self._stop, pending) if self._stop else pending

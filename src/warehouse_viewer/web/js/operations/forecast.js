@@ -16,16 +16,38 @@ const HIGHEST = 255; // priority
 const OWN = 'learned'; // a policy that needs a file
 const ROLES = ['orders', 'units', 'bins', 'batches', 'replenishment']; // the coordinator has the others
 
-/** Points of the orders done in the last hour, counted back from now; x in minutes from now. */
-export function pastOf({ interval, begin, end, orders_completed: done }) {
-  const out = [{ x: 0, y: 0 }];
+/** When a shift had done how many orders since its last hour began: {at, sum} each, at [s]. */
+function doneAt({ interval, begin, end, orders_completed: done }) {
   let sum = 0;
-  for (let i = done.length - 1; i >= 0; i--) {
-    sum -= done[i];
-    const from = Math.max(begin, (Math.floor(begin / interval) + i) * interval);
-    out.push({ x: Math.min(0, (from - end) / 60), y: sum });
-  }
-  return out.reverse();
+  const edges = done.map((count, i) => {
+    const edge = { at: Math.min(Math.max(begin, (Math.floor(begin / interval) + i) * interval), end), sum };
+    sum += count;
+    return edge;
+  });
+  return [...edges, { at: end, sum }];
+}
+
+/** How many orders were done by a time, evenly between two edges; before the first of them NaN. */
+function sumAt(edges, time) {
+  if (time < edges[0].at) return NaN;
+  const i = edges.findIndex(({ at }) => at >= time);
+  if (i < 0) return edges.at(-1).sum;
+  const [from, to] = [edges[Math.max(i - 1, 0)], edges[i]];
+  return to.at > from.at ? from.sum + ((to.sum - from.sum) * (time - from.at)) / (to.at - from.at) : to.sum;
+}
+
+/** Points of the orders done in the last hour, counted back from `now` [s]; x in minutes from it. */
+export function pastOf(throughput, now) {
+  const edges = doneAt(throughput);
+  const sum = sumAt(edges, now);
+  if (Number.isNaN(sum)) return [];
+  return [...edges.filter(({ at }) => at < now).map(({ at, sum: then }) => ({ x: (at - now) / 60, y: then - sum })), { x: 0, y: 0 }];
+}
+
+/** How many orders were done between two times [s]; NaN: it is not known. */
+export function doneBetween(throughput, from, to) {
+  const edges = doneAt(throughput);
+  return sumAt(edges, to) - sumAt(edges, from);
 }
 
 /** Points of a quantile of the orders to be done, from now on. */
@@ -128,7 +150,7 @@ export class ForecastCard {
     if (!runs) return;
     if (!changes.length) this.plain = forecast;
     this.shown = forecast;
-    this.past = this.throughput ? pastOf(this.throughput) : [];
+    this.past = this.throughput ? pastOf(this.throughput, begin) : [];
     this.draw();
   }
 
@@ -143,13 +165,21 @@ export class ForecastCard {
   }
 
   draw() {
-    const { shown, plain, past } = this;
-    const isOther = plain && plain !== shown && plain.made_at <= shown.made_at;
+    const { shown, past } = this;
+    const before = this.pointsBefore();
     $('forecast-plot').hidden = false;
-    $('forecast-other').hidden = !isOther;
+    $('forecast-other').hidden = !before.length;
     $('chart-forecast').ariaLabel = $('forecast-text').textContent;
-    const before = isOther ? aheadOf(plain, 'p50').map(({ x, y }) => ({ x: x - (shown.made_at - plain.made_at) / 60, y })) : [];
     this.plot.show(past, aheadOf(shown, 'p90'), aheadOf(shown, 'p10'), aheadOf(shown, 'p50'), before);
+  }
+
+  /** Points of the last forecast without the change, counted from where the one shown begins. */
+  pointsBefore() {
+    const { shown, plain, throughput } = this;
+    if (!plain || plain === shown || plain.made_at > shown.made_at || !throughput) return [];
+    const late = (shown.made_at - plain.made_at) / 60;
+    const done = late ? doneBetween(throughput, plain.made_at, shown.made_at) : 0;
+    return Number.isNaN(done) ? [] : aheadOf(plain, 'p50').map(({ x, y }) => ({ x: x - late, y: y - done }));
   }
 }
 

@@ -14,7 +14,7 @@ import { NEEDS_HELP, shownName, STATION_STATES } from '../base/words.js';
 import { Faults } from './faults.js';
 
 export { knownPerson };
-export { vda5050Of } from './vda5050.js';
+export { plannedOf, vda5050Of } from './vda5050.js';
 
 const EVENTS = 20, PAST_EVERY = 1000; // events asked for; between two questions about the past [ms]
 const LONG = 10; // from which a span is worth saying [s]

@@ -147,6 +147,11 @@ export class Details {
     return this.parts?.vda5050Of(id, { past, changed: () => this.refresh() }) ?? [];
   }
 
+  /** Where a robot at a broker says that it will drive; null: it does not, or that is not known. */
+  plannedOf(id) {
+    return id && this.about.moment() === null ? this.parts?.plannedOf(id) ?? null : null;
+  }
+
   factsOfUnit(index) {
     const carrier = this.world.carrier[index];
     const items = this.world.itemsOf[index].map((i) => this.world.scene.items[i]);

@@ -22,10 +22,22 @@ export function factsOf(robot) {
   ];
   if (robot.order) out.push([tr`order`, robot.past ? tr`${robot.order}, update ${robot.past.update}` : robot.order]);
   if (robot.past) out.push(...factsOfPast(robot.past));
+  out.push(...factsOfPlan(robot));
   for (const error of robot.errors) out.push([tr`error`, error]);
   for (const fault of robot.faults ?? []) out.push([tr`fault`, fault]);
   return out;
 }
+
+/** Where a vehicle of 3.0.0 says that it will drive, and when it will be there. */
+function factsOfPlan({ planned_path: path = [], intermediate_path: points = [] }) {
+  const out = path.length ? [[tr`planned path`, tr`${path.length} points`]] : [];
+  const last = points.at(-1);
+  if (last) out.push([tr`reaches`, tr`${number(last.x, 1)}, ${number(last.y, 1)} m at ${clock(last.time)}`]);
+  return out;
+}
+
+/** A time on the wall [s since 1970], with seconds. */
+const clock = (seconds) => new Date(seconds * 1000).toLocaleTimeString();
 
 /** What a state of a recording says besides. */
 function factsOfPast({ base, horizon, last_node, driving, paused, mode, actions, age }) {
@@ -49,6 +61,13 @@ function nodes(names) {
 
 /** Whether a robot is a vehicle that an outside master may drive, so that faults can be asked for. */
 export const isVehicle = (id) => robots.get(id)?.driven_by === 'OUTSIDE_MASTER';
+
+/** The robot of that id as the server has it, where it is a vehicle of 3.0.0 that says where it will drive:
+ *  planned_path, [[x, y], …], and intermediate_path, [{x, y, time}, …]; null: it does not. */
+export function plannedOf(id) {
+  const robot = robots.get(id);
+  return robot?.planned_path?.length || robot?.intermediate_path?.length ? robot : null;
+}
 
 const robots = new Map();
 let asked = -Infinity;

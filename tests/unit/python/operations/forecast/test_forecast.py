@@ -2,11 +2,13 @@
 """A fork is the shift that it is of; runs from it are repeatable, and changes change them."""
 
 import contextlib
+import gc
 import math
 import os
 import signal
 import threading
 import time
+import weakref
 from dataclasses import replace
 
 import numpy as np
@@ -99,6 +101,12 @@ def test_forking_leaves_a_shift_as_it_is():
                     ahead.run(replace(a_task(ops), times=(ops.time + 60,)), 0)
             hashes.append(ops.shift.state_hash())
     assert hashes[0] == hashes[1]
+
+
+def test_a_run_that_is_over_keeps_no_memory(shift):
+    gone = weakref.ref(ahead.Ahead(a_task(shift), 0).shift)
+    gc.collect()
+    assert gone() is None
 
 
 def test_stock_balances_and_no_order_is_lost(shift):

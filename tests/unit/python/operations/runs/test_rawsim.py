@@ -15,6 +15,7 @@ from instance_file import (
 from warehouse_layout import convert as formats
 from warehouse_layout.file import layout_file
 from warehouse_layout.place import placement
+from warehouse_operations.goods.kinds import MOST_BINS, Goods, Kinds
 from warehouse_operations.policies import Policies, PolicyError, rawsim_policies
 from warehouse_operations.runs import simulation
 from warehouse_operations.runs.rawsim import InstanceError, read_instance
@@ -275,6 +276,11 @@ def test_a_floor_too_narrow_for_bodies_is_refused_with_physics(tmp_path):
 def test_pods_too_small_for_any_bundle_are_refused(tmp_path):
     with pytest.raises(InstanceError, match="fits on a pod of Capacity 7; a Capacity for the"):
         open_operations(small_pods(tmp_path, 7, ""))
+
+
+@pytest.mark.parametrize("capacity, bins", [(0.0, 1), (7.0, 1), (1e12, MOST_BINS)])
+def test_pods_of_any_capacity_have_bins_that_fit_in_memory(capacity, bins):
+    assert len(Goods(Kinds.drawn(), {1: capacity}).items()) == bins
 
 
 def test_a_wrong_range_of_settings_is_refused(tmp_path):

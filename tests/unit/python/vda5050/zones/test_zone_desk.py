@@ -13,7 +13,13 @@ from warehouse_vda5050.master.fleet import RemoteFleet
 from warehouse_vda5050.master.frame import Frame
 from warehouse_vda5050.master.robots_file import RemoteRobot
 from warehouse_vda5050.master.zone_desk import ClosedArea
-from warehouse_vda5050.model import Factsheet, InstantActions, Responses, ZoneSet
+from warehouse_vda5050.model import (
+    Factsheet,
+    InstantActions,
+    OperatingMode,
+    Responses,
+    ZoneSet,
+)
 from warehouse_vda5050.topics import Identity, Kind
 from warehouse_vda5050.zones.zone import ZoneType
 
@@ -155,7 +161,33 @@ def test_a_set_of_an_earlier_run_is_replaced():
     sides = Sides()
     sides.bench.vehicle.on_zone_set(ZoneSet("warehouse-old-1", "warehouse", ()))
     sides.bench.instant("enableZoneSet", "e", zoneSetId="warehouse-old-1")
-    sides.until(lambda s: [z.id for z in s.zone_sets] == ["warehouse-run-1"])
+    sides.until(lambda s: [z.id for z in s.zone_sets] == ["warehouse-run-1-1"])
+
+
+def test_sets_of_two_vehicles_have_ids_of_their_own():
+    """6.4.2: the content of a zone set with a unique zoneSetId shall not change."""
+    robots = [RemoteRobot(k, Identity("acme", str(k)), Frame()) for k in (1, 2)]
+    master = RemoteFleet(robots, GRID, "run", zones=True)
+    for robot in robots:
+        bench = ZoneBench()
+        master.take(robot.identity, bench.vehicle.take_factsheet(), 0.0)
+        master.take(robot.identity, bench.tick(), 0.0)
+    master.close_zones([closed(4, 4, 5, 5, 2)])
+    sets = [m for _, m in master.messages(1.0) if isinstance(m, ZoneSet)]
+    assert len({s.id for s in sets}) == len(sets) == 2
+
+
+def test_a_vehicle_in_manual_is_sent_zones_and_no_actions():
+    """6.6.6: fleet control shall not send actions; AUTOMATIC again, the set is enabled."""
+    sides = Sides()
+    sides.bench.robot.extra["mode"] = OperatingMode.MANUAL
+    sides.step(2)
+    sides.sent.clear()
+    sides.master.close_zones([closed(4, 4, 5, 5)])
+    sides.step(20)
+    assert {type(message) for message in sides.sent} == {ZoneSet}
+    sides.bench.robot.extra.clear()
+    sides.until(lambda s: [z.enabled for z in s.zone_sets] == [True])
 
 
 def test_zones_that_are_refused_are_reported_once():

@@ -29,6 +29,7 @@ from warehouse_viewer.ros.operations_client import OperationsClient
 from warehouse_viewer.ros.shift_feed import ShiftFeed
 from warehouse_viewer.ros.simulation import AwayError
 from warehouse_viewer.watch.station_watch import StationWatch
+from warehouse_viewer.watch.troubles import of_forecast
 
 DASHBOARD = ROOT / "doc" / "how-to" / "grafana.json"
 
@@ -229,6 +230,35 @@ def test_a_forecast_is_found_by_its_number():
     assert forecasts._shown(backend, 3)["state"] == "DONE"
     book.ask(1)  # of another shift
     assert book.newest == 1 and forecasts._shown(backend, 1)["state"] == "RUNNING"
+
+
+def test_what_a_change_would_do_is_no_figure_and_no_alarm():
+    shift = Shift()
+    shift.stations()
+    feed = shift.work.feed
+
+    def metrics():
+        return Metrics(Heard(), shift.work).text()[0].decode()
+
+    shift.tell("forecasts", msg.ForecastResult, **forecast(3, late_p50=[0.0, 4.0]))
+    tried = forecast(4, done_p90=[9.0, 9.0], changes=["+0 close pick1"])
+    shift.tell("forecasts", msg.ForecastResult, **tried)
+    shift.tell("forecasts", msg.ForecastResult, forecast_id=5, text="no forecast: killed")
+    assert (feed.forecasts.newest, feed.forecast.forecast_id) == (5, 3)
+    assert 'warehouse_forecast_done{quantile="p90"} 2.0' in metrics()
+    assert [trouble.kind for trouble in of_forecast(feed.forecast, 700.0)] == [
+        "ORDERS_WILL_BE_LATE"
+    ]
+
+
+def test_a_forecast_of_another_shift_takes_the_place_of_all_before():
+    shift = Shift()
+    shift.stations()
+    book = shift.work.feed.forecasts
+    book.ask(7)
+    shift.tell("forecasts", msg.ForecastResult, **forecast(7))
+    shift.tell("forecasts", msg.ForecastResult, **forecast(1, changes=["+0 close pick1"]))
+    assert (book.newest, book.plain, book.result(7)) == (1, None, None)
 
 
 def names_in(expression):

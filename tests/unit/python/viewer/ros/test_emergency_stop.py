@@ -4,8 +4,8 @@
 import rospy
 from fake_ros import FakeRos, fleet_state
 
-from warehouse_msgs.msg import Stop
 from warehouse_viewer.ros.emergency_stop import HELD, EmergencyStop
+from warehouse_viewer.ros.heard_commands import Heard
 from warehouse_viewer.watch import troubles
 from warehouse_viewer.watch.alarm_book import Trouble
 
@@ -17,6 +17,10 @@ class Ros(FakeRos):
 
 def fleet(time, robots=(1, 2), timeline=0):
     return fleet_state(stamp=rospy.Time(time), kiva_id=[*robots], timeline=timeline)
+
+
+def heard(**fields):
+    return Heard("/stop", "/someone", fields)
 
 
 def sent(ros):
@@ -55,11 +59,12 @@ def test_it_outlasts_the_viewer_and_hears_other_clients():
     EmergencyStop(ros).stop("Ann")
     again = EmergencyStop(ros)
     assert again.hold.by == "Ann"
-    ros.callbacks["stop"](Stop(kiva_id=3, stop=False))
+    again.hear(heard(kiva_id=3, stop=0))
+    again.hear(Heard("/rot", "/someone", {"kiva_id": 0, "direction": 1}))
     assert again.hold
-    ros.callbacks["stop"](Stop(kiva_id=0, stop=False))
+    again.hear(heard(kiva_id=0, stop=0))
     assert again.hold is None and not ros.parameters[HELD]
-    ros.callbacks["stop"](Stop(kiva_id=0, stop=True))
+    again.hear(heard(kiva_id=0, stop=1))
     assert again.hold.by == ""
 
 

@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page /whatif in a real browser, as a person uses it who never opens a terminal; no ROS."""
 
-import contextlib
-import re
-import subprocess
-
 import paths
 import pytest
+from page_program import served
 from rostest_support import axe
 from rostest_support.browser import browser
 from rostest_support.task import Task
@@ -22,15 +19,9 @@ DONE = "page.scenarios?.length && page.scenarios.every((one) => one.state === 'd
 COLUMNS = "[...document.querySelectorAll('.column')].map((c) => c.textContent)"
 
 
-@contextlib.contextmanager
 def server(folder):
     """The address of `whatif FOLDER`."""
-    command = ["/usr/bin/python3", WHATIF, folder, "--port", "0"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
-        try:
-            yield re.search(r"http://\S+", process.stdout.readline())[0]
-        finally:
-            process.terminate()
+    return served(WHATIF, folder)
 
 
 @pytest.fixture(scope="module")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The phases of a dispatcher, in the order in which Transports.advance() runs them each tick:
 
+    reject    transports of robots that can't carry the unit go to others
     recover   transports of robots that are lost or broken, units that robots carry without one
     lift      lifts that have ended: units go to their destinations, or are stored
     arrive    robots that have arrived beneath a unit, at a destination or at a storage place

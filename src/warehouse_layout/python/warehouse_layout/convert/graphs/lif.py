@@ -144,15 +144,22 @@ def _unsaid(reading: _Reading) -> list[str]:
         f"a layout holds no {name}: left out {plural(n, 'time')}"
         for name, n in reading.extras.items()
     ]
-    out += [
-        f"a cell has one place, on the floor; node {node} has {len(names)}: {', '.join(names)}"
-        for node, names in reading.stations.items()
-        if len(names) > 1
-    ]
+    out += _heights(reading)
     if len(reading.types) > 1:
         names = ", ".join(sorted(reading.types))
         out.append(f"robots are all of one type here; there: {names}")
     return out
+
+
+def _heights(reading: _Reading) -> list[str]:
+    """Returns in one sentence which nodes have several places, with those of the first."""
+    several = {node: names for node, names in reading.stations.items() if len(names) > 1}
+    if not several:
+        return []
+    node, names = next(iter(several.items()))
+    text = f"a cell has one place, on the floor; node {node} has {len(names)}: {', '.join(names)}"
+    others = len(several) - 1
+    return [f"{text}; {plural(others, 'other node')} too" if others else text]
 
 
 __all__ = ["FormatError", "kind_of", "read"]

@@ -81,8 +81,13 @@ class Actor:
     # --- beginnings and ends
 
     def _new_vehicle(self) -> PlayedVehicle:
+        is_new = self._codec.version.startswith("3")
         settings = VehicleSettings(
-            begins_at_zero=self._codec.version.startswith("3"), first_path=self._paths
+            begins_at_zero=is_new,
+            first_path=self._paths,
+            zones=is_new,
+            # Requests of each start have ids of their own.
+            name=f"{self.role.identity.serial}.{self._paths}",
         )
         self._paths += 100_000
         return PlayedVehicle(self.robot, self.floor, self.map_id, settings)
@@ -126,7 +131,7 @@ class Actor:
         """Ends all accidents."""
         self.robot.reports.clear()
         self.robot.lift_fault, self.robot.lift_time = "", LIFT_TIME
-        self.vehicle.refusal, self.vehicle.deaf = None, False
+        self.vehicle.refusal, self.vehicle.deaf, self.vehicle.no_zones = None, False, False
         if self.link.edits.pop(Kind.FACTSHEET, None):
             self.vehicle.request_factsheet()
         self.link.edits.clear()
@@ -211,6 +216,8 @@ class Actor:
             loaded=bool(state.loads),
             cancel=cancels[-1].value if cancels else "",
             paused=state.paused,
+            zone_sets={s.id: s.enabled for s in state.zone_sets},
+            zones=next((s.id for s in state.zone_sets if s.enabled), ""),
         )
         if not self.link.link.connected:
             self.facts.note(now, online=False)

@@ -22,7 +22,8 @@ class Facts:
     is under way; node, sequence: the last traversed; at: position [m]; fatal, localized, mode,
     charge, loaded: of its state; online: by the topic connection; sheet: its factsheet, with the
     names of 2.1.0; cancel: the status of the newest cancelOrder; pushed: how often a person put it
-    elsewhere."""
+    elsewhere; zone_sets: whether each zone set that it has is enabled, by id; zones: the id of the
+    one that is."""
 
     def __init__(self) -> None:
         self._facts: dict[str, Fact] = {}

@@ -12,11 +12,12 @@ from warehouse_vda5050.codec import Codec
 from warehouse_vda5050.conform.master.channel import Channel
 from warehouse_vda5050.conform.master.open_floor import OpenFloor
 from warehouse_vda5050.conform.names import of_wire, to_wire
-from warehouse_vda5050.errors import Error
+from warehouse_vda5050.errors import Error, ErrorType
 from warehouse_vda5050.formula_driver import FormulaRobot
 from warehouse_vda5050.headers import Headers
 from warehouse_vda5050.model import (
     MAP_ID,
+    Action,
     ConnectionState,
     Edge,
     InstantActions,
@@ -24,11 +25,12 @@ from warehouse_vda5050.model import (
     VehicleOrder,
     VehicleState,
     Visualization,
+    ZoneSet,
 )
 from warehouse_vda5050.mqtt.loop import Outgoing
 from warehouse_vda5050.mqtt.settings import BrokerSettings
 from warehouse_vda5050.mqtt.vehicle_link import VehicleLink
-from warehouse_vda5050.topics import TO_VEHICLE, Identity, Kind, Topics
+from warehouse_vda5050.topics import Identity, Kind, Topics, heard_by_vehicle
 from warehouse_vda5050.vehicle import Vehicle, VehicleSettings
 from warehouse_vda5050.vehicle.complaints import references
 
@@ -48,8 +50,8 @@ OBEYED = (
 
 class PlayedVehicle(Vehicle):
     """Takes orders of any map and place. map_id: of its map. refusal: (type, whether of updates) of
-    the error by which it refuses, None if it does not; deaf: whether it ignores instant actions.
-    accepted: whether it took the last order over."""
+    the error by which it refuses, None if it does not; deaf: whether it ignores instant actions;
+    no_zones: whether it refuses zone sets. accepted: whether it took the last order over."""
 
     def __init__(
         self, robot: FormulaRobot, floor: OpenFloor, map_id: str, settings: VehicleSettings
@@ -57,7 +59,7 @@ class PlayedVehicle(Vehicle):
         super().__init__(robot, floor, settings)
         self.robot, self.floor, self.map_id = robot, floor, map_id
         self.refusal: tuple[str, bool] | None = None
-        self.deaf = self.accepted = False
+        self.deaf = self.accepted = self.no_zones = False
 
     def on_order(self, order: VehicleOrder, now: float, unknown: tuple[str, ...] = ()) -> bool:
         """Takes an order or an update, or refuses it on demand."""
@@ -77,6 +79,16 @@ class PlayedVehicle(Vehicle):
         if not self.deaf:
             super().on_instant_actions(message, now, unknown)
 
+    def on_zone_set(self, zones: ZoneSet, unknown: tuple[str, ...] = ()) -> None:
+        """Adds a zone set of its map, or refuses it on demand."""
+        if self.no_zones:
+            refer = (("topic", Kind.ZONE_SET.value), ("zoneSetId", zones.id))
+            text = "refused, to see what the master makes of it"
+            self.note(Error(ErrorType.VALIDATION.value, description=text, references=refer))
+            return
+        here = MAP_ID if zones.map_id == self.map_id else f"{zones.map_id}, not {self.map_id}"
+        super().on_zone_set(replace(zones, map_id=here), unknown)
+
     def _understood(self, order: VehicleOrder) -> VehicleOrder:
         """Returns an order without what the robot does by itself, on the core's map."""
         nodes = tuple(self._place(node) for node in order.nodes)
@@ -86,14 +98,15 @@ class PlayedVehicle(Vehicle):
 
     def _place(self, node: Node) -> Node:
         demands = tuple(pair for pair in node.demands if pair[0] not in OBEYED)
+        node = replace(node, demands=demands, actions=tuple(map(_of_any_load, node.actions)))
         at = node.position
         if at is None:
-            return replace(node, demands=demands)
+            return node
         if at.theta is not None:
             point = self.floor.position(self.floor.add(node.id, at.x, at.y))
             self.robot.headings[point] = at.theta
         here = MAP_ID if at.map_id in ("", self.map_id) else f"{at.map_id}, not {self.map_id}"
-        return replace(node, demands=demands, position=replace(at, theta=None, map_id=here))
+        return replace(node, position=replace(at, theta=None, map_id=here))
 
     def _limit(self, edge: Edge, a: Node, b: Node) -> Edge:
         speed = dict(edge.demands).get("maxSpeed")
@@ -102,6 +115,12 @@ class PlayedVehicle(Vehicle):
             start, goal = (self.floor.position(cell) for cell in ends)
             self.robot.limits[start, goal] = speed
         return replace(edge, demands=tuple(p for p in edge.demands if p[0] not in OBEYED))
+
+
+def _of_any_load(action: Action) -> Action:
+    """Returns an action that lifts whatever type of load there is."""
+    known = tuple(pair for pair in action.parameters if pair[0] != "loadType")
+    return replace(action, parameters=known)
 
 
 class PlayedLink(VehicleLink):
@@ -136,6 +155,10 @@ class PlayedLink(VehicleLink):
     def send_raw(self, kind: Kind, payload: bytes) -> None:
         """Sends a payload as it is."""
         self._post(Outgoing(self._topics.of(self.identity, kind), payload, kind.qos, kind.retained))
+
+    def state_payload(self) -> bytes:
+        """Returns its next state as it would be sent."""
+        return self._outgoing(Kind.STATE, self._on_map(self.vehicle.state())).payload
 
     def send_late(self, now: float) -> None:
         """Sends states whose time has come."""
@@ -183,7 +206,9 @@ class PlayedLink(VehicleLink):
                 replace(n, position=n.position and replace(n.position, map_id=vehicle.map_id))
                 for n in message.nodes
             )
-            message = replace(message, nodes=tuple(states), maps=(vehicle.map_id,))
+            sets = tuple(replace(s, map_id=vehicle.map_id) for s in message.zone_sets)
+            maps = (vehicle.map_id,)
+            message = replace(message, nodes=tuple(states), maps=maps, zone_sets=sets)
         return message
 
     def _on_connect(self) -> None:
@@ -194,5 +219,6 @@ class PlayedLink(VehicleLink):
         self.before()
         super()._on_message(topic, payload, retained)
         kind = topic.rpartition("/")[2]
-        if kind in {known.value for known in TO_VEHICLE} and not retained:
+        known = {known.value for known in heard_by_vehicle(self._codec.version)}
+        if kind in known and not retained:
             self.heard(Kind(kind), payload)

@@ -17,7 +17,7 @@ from warehouse_vda5050.conform.verdict import Interrupted, Untestable, demand
 from warehouse_vda5050.conform.wire import Arrived
 from warehouse_vda5050.mqtt.loop import Outgoing
 from warehouse_vda5050.mqtt.settings import BrokerSettings
-from warehouse_vda5050.topics import TO_VEHICLE, Kind, TopicError, Topics
+from warehouse_vda5050.topics import Kind, TopicError, Topics, heard_by_vehicle
 
 Json = dict[str, Any]
 STEP = 0.05  # [s]
@@ -97,7 +97,7 @@ class Stage:
         actor = next((a for a in self.actors if a.role.identity == identity), None)
         if actor is None:
             return
-        if kind in TO_VEHICLE:
+        if kind in self.to_vehicle:
             how = {"qos": message.qos, "retained": message.retained}
             self._add(self.observed, actor, kind, message.payload, **how)
             if not message.retained and not self._take_from(self._received, message):
@@ -260,6 +260,11 @@ class Stage:
     def is_new(self) -> bool:
         """Whether the version is 3.0."""
         return self.codec.version.startswith("3")
+
+    @property
+    def to_vehicle(self) -> tuple[Kind, ...]:
+        """The kinds of messages that are the master's, in the version."""
+        return heard_by_vehicle(self.codec.version)
 
     def close(self) -> None:
         """Says OFFLINE for all vehicles, and disconnects."""

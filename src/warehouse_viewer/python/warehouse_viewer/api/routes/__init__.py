@@ -14,6 +14,7 @@ from warehouse_viewer.api.routes import (
     shift,
     simulation,
     stations,
+    vda5050,
     warehouse,
     watch,
     zones,
@@ -34,5 +35,6 @@ for _subject in (
     forecasts,
     watch,
     zones,
+    vda5050,
 ):
     router.include_router(_subject.router)

@@ -14,14 +14,12 @@ from warehouse_viewer.api.schemas.fleet import (
     Coordinator,
     FleetStop,
     NewFailure,
-    NewFault,
     NewMode,
     NewTransport,
     Transport,
     TransportNumber,
     Transports,
     TransportState,
-    Vda5050Robot,
 )
 from warehouse_viewer.api.schemas.pydantic_versions import as_dict
 from warehouse_viewer.api.schemas.watch import Doer
@@ -36,25 +34,6 @@ TRANSPORT = Path(ge=1, le=2**32 - 1, description="of the transport")
 async def get_coordinator(backend: ApiBackend = BACKEND) -> object:
     """The fleet at a glance."""
     return catalogue.coordinator(await backend.coordinator(), backend.feed["fleet"])
-
-
-@router.get("/vda5050", response_model=list[Vda5050Robot], responses=problems())
-async def get_vda5050(backend: ApiBackend = BACKEND) -> object:
-    """Robots at a broker by VDA 5050: whose they are, connection, order and errors."""
-    return [
-        robot for message in backend.feed.vda5050.messages for robot in catalogue.at_broker(message)
-    ]
-
-
-@router.post("/vda5050/{number}/faults", response_model=Done, responses=problems(404, *SENT))
-async def begin_fault(
-    body: NewFault, number: int = NUMBER, backend: ApiBackend = BACKEND
-) -> object:
-    """Lets a robot that is a vehicle misbehave, by which an outside master is tried: its states are
-    lost, it jumps, it refuses orders. What the robot does is in the events."""
-    await backend.robot(number)
-    await backend.call(backend.feed.vda5050.begin_fault, number, body.fault, body.seconds)
-    return {"message": f"kiva{number}: {body.fault or 'no fault'}"}
 
 
 @router.post("/robots/{number}/mode", response_model=Done, responses=problems(404, *SENT))

@@ -98,24 +98,6 @@ class NewFailure(Body):
     )
 
 
-class Vda5050Robot(BaseModel):
-    """A robot at a broker, by VDA 5050."""
-
-    id: int
-    driven_by: Literal["OUTSIDE_MASTER", "COORDINATOR"] = Field(
-        description="OUTSIDE_MASTER: a robot of this warehouse that a master at the broker may"
-        " drive; COORDINATOR: a vehicle of another maker that this warehouse drives"
-    )
-    manufacturer: str
-    serial: str
-    broker: str
-    connection: Literal["ONLINE", "OFFLINE", "CONNECTIONBROKEN"]
-    driven: bool = Field(description="whether an order has the robot, or had it just now")
-    order: str = Field(description="id of the order under way, or empty")
-    errors: list[str]
-    faults: list[str] = Field(description="faults on demand that it has")
-
-
 class NewFault(Body):
     """Lets a vehicle misbehave, as its master sees it."""
 

@@ -13,8 +13,10 @@ from warehouse_vda5050.conform.master.cases import (
     messages,
     modes,
     order,
+    paths,
     states,
     update,
+    zones,
 )
 
 # What needs an accident comes first, and what judges all orders of the run last.
@@ -27,6 +29,8 @@ MODULES = (
     limits,
     actions,
     instant,
+    paths,
+    zones,
     order,
     update,
     messages,

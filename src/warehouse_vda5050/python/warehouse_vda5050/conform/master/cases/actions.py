@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 from warehouse_vda5050.conform import view
 from warehouse_vda5050.conform.case import Chapter
 from warehouse_vda5050.conform.log import Entry
+from warehouse_vda5050.conform.master.actor import Actor
 from warehouse_vda5050.conform.master.facts import held_for, value_of
 from warehouse_vda5050.conform.master.orders import orders_of
 from warehouse_vda5050.conform.master.stage import Stage
@@ -199,26 +200,28 @@ def failed_pick(stage: Stage) -> None:
     """After a pick that FAILED the master does not take the load as carried."""
     for actor in stage.actors:
         actor.robot.lift_fault = "the lift is refused, to see what the master makes of it"
-    picks = stage.until(lambda: _failed(stage, "pick"), stage.settings.patience)
-    if not picks:
+    actor = stage.until(lambda: _failed(stage, "pick"), stage.settings.patience)
+    if not isinstance(actor, Actor):
         raise Untestable(f"the master sent no pick within {stage.settings.patience:.0f} s")
     stage.wait(stage.settings.reaction)
     mark = stage.mark
     stage.wait(stage.settings.watch)
     after = [
         a["actionType"]
-        for entry in stage.received(Kind.ORDER, mark)
+        for entry in stage.received(Kind.ORDER, mark, actor)
         for node in view.rows(entry.value, "nodes")
         for a in view.rows(node, "actions")
     ]
     demand(after[:1] != ["drop"], "the next action is a drop of what it does not carry")
 
 
-def _failed(stage: Stage, type: str) -> bool:
-    states = (actor.vehicle.state() for actor in stage.actors)
-    return any(
-        a.type == type and a.status is ActionStatus.FAILED for s in states for a in s.actions
-    )
+def _failed(stage: Stage, type: str) -> Actor | None:
+    """Returns a vehicle that reports an action of a type as FAILED."""
+    for actor in stage.actors:
+        actions = actor.vehicle.state().actions
+        if any(a.type == type and a.status is ActionStatus.FAILED for a in actions):
+            return actor
+    return None
 
 
 @case("slow", "6.6.2")

@@ -12,13 +12,15 @@ from warehouse_vda5050.topics import Kind
 chapter = Chapter("horizon")
 case = chapter.case
 PATIENCE = 30.0  # until a base is extended that a vehicle asks for [s]
+ATTEMPTS = 3
 
 
 def _with_horizon(stage: Stage) -> Actor:
     """Returns a vehicle that asks for a base. Raises Untestable if no order has a horizon."""
 
     def asks() -> Actor | None:
-        return next((a for a in stage.actors if a.vehicle.state().new_base_request), None)
+        asking = (a for a in stage.actors if a.vehicle.state().new_base_request)
+        return next((a for a in asking if not _is_cancelled(a)), None)
 
     actor = stage.until(asks, stage.settings.patience)
     if not isinstance(actor, Actor):
@@ -27,9 +29,22 @@ def _with_horizon(stage: Stage) -> Actor:
     return actor
 
 
+def _is_cancelled(actor: Actor) -> bool:
+    return bool(value_of(actor.facts.scene(), "cancel") == "RUNNING")
+
+
 @case("base_request", "6.10.3")
 def base_request(stage: Stage) -> None:
     """A newBaseRequest is answered by an update that releases more."""
+    for _ in range(ATTEMPTS):
+        if _base_is_extended(stage):
+            return
+    raise Untestable(f"{ATTEMPTS} orders that a base was asked for were cancelled")
+
+
+def _base_is_extended(stage: Stage) -> bool:
+    """Returns whether a base was extended that a vehicle asked for; False: the order was cancelled.
+    Raises Differs."""
     actor = _with_horizon(stage)
     order = actor.vehicle.state().order_id
     mark = stage.mark
@@ -38,7 +53,9 @@ def base_request(stage: Stage) -> None:
         entries = stage.received(Kind.ORDER, mark, actor)
         return any((e.value or {}).get("orderId") == order for e in entries)
 
-    demand(stage.until(answered, PATIENCE), f"no update within {PATIENCE:.0f} s")
+    stage.until(lambda: answered() or _is_cancelled(actor), PATIENCE)
+    demand(answered() or _is_cancelled(actor), f"no update within {PATIENCE:.0f} s")
+    return answered()
 
 
 @case("fluent", "6.6.2", strict=True, audit=True)

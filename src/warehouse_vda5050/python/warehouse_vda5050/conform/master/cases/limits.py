@@ -17,7 +17,7 @@ from warehouse_vda5050.conform.master.orders import Ordered, orders_of
 from warehouse_vda5050.conform.master.stage import Stage
 from warehouse_vda5050.conform.verdict import Untestable, demand
 from warehouse_vda5050.field_rules import EDGE, POSITION, Use
-from warehouse_vda5050.topics import TO_VEHICLE, Kind
+from warehouse_vda5050.topics import Kind
 
 chapter = Chapter("limits")
 case = chapter.case
@@ -102,7 +102,7 @@ def _strings(value: Any, names: tuple[str, ...]) -> Iterator[tuple[str, str]]:
 
 
 def _all(stage: Stage) -> list[Entry]:
-    entries = [e for kind in TO_VEHICLE for e in stage.received(kind)]
+    entries = [e for kind in stage.to_vehicle for e in stage.received(kind)]
     if not entries:
         raise Untestable("the master sent nothing")
     return entries

@@ -10,12 +10,17 @@ from warehouse_vda5050.conform.log import Entry
 from warehouse_vda5050.conform.master import form
 from warehouse_vda5050.conform.master.stage import Stage
 from warehouse_vda5050.conform.verdict import Untestable, demand
-from warehouse_vda5050.topics import TO_VEHICLE, Kind
+from warehouse_vda5050.topics import Kind
 
 chapter = Chapter("messages")
 case = chapter.case
 STAMP = re.compile(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?Z")
-NAMES = {Kind.ORDER: "orders", Kind.INSTANT_ACTIONS: "instant actions"}
+NAMES = {
+    Kind.ORDER: "orders",
+    Kind.INSTANT_ACTIONS: "instant actions",
+    Kind.ZONE_SET: "zone sets",
+    Kind.RESPONSES: "responses",
+}
 
 
 def _sent(stage: Stage, *kinds: Kind) -> list[Entry]:
@@ -47,7 +52,7 @@ def instant_form(stage: Stage) -> None:
 @case("numbers", "6.1.4", audit=True)
 def numbers(stage: Stage) -> None:
     """NaN and infinity stand nowhere: JSON has no such numbers."""
-    for entry in _sent(stage, *TO_VEHICLE):
+    for entry in _sent(stage, *stage.to_vehicle):
         spoilt = re.search(rb"[:\[,]\s*(NaN|-?Infinity)\b", entry.payload)
         demand(not spoilt, f"{entry.topic} has {spoilt and spoilt[1].decode()}")
 
@@ -55,12 +60,12 @@ def numbers(stage: Stage) -> None:
 @case("utf8", "6.1.2", audit=True)
 def utf8(stage: Stage) -> None:
     """All is encoded in UTF-8."""
-    for entry in _sent(stage, *TO_VEHICLE):
+    for entry in _sent(stage, *stage.to_vehicle):
         demand("\ufffd" not in entry.text, f"{entry.topic} is not UTF-8")
 
 
 def _by_topic(stage: Stage) -> Iterator[list[Entry]]:
-    for kind in TO_VEHICLE:
+    for kind in stage.to_vehicle:
         for actor in stage.actors:
             yield stage.received(kind, 0, actor)
 
@@ -87,10 +92,19 @@ def instant_ids(stage: Stage) -> None:
     _ids(stage, Kind.INSTANT_ACTIONS)
 
 
+@case("zone_ids", "7.2", audit=True, versions=("3.0.0",))
+def zone_ids(stage: Stage) -> None:
+    """headerId of zone sets and of responses counts up by one for each message of the topic."""
+    _sent(stage, Kind.ZONE_SET, Kind.RESPONSES)
+    for kind in (Kind.ZONE_SET, Kind.RESPONSES):
+        if stage.received(kind):
+            _ids(stage, kind)
+
+
 @case("stamps", "6.4", audit=True)
 def stamps(stage: Stage) -> None:
     """timestamp is ISO 8601 in UTC."""
-    for entry in _sent(stage, *TO_VEHICLE):
+    for entry in _sent(stage, *stage.to_vehicle):
         value = (entry.value or {}).get("timestamp")
         demand(STAMP.fullmatch(str(value)), f"{entry.topic}: timestamp is {value!r}")
 
@@ -98,7 +112,7 @@ def stamps(stage: Stage) -> None:
 @case("rising", "6.4", audit=True)
 def rising(stage: Stage) -> None:
     """timestamp never goes back."""
-    _sent(stage, *TO_VEHICLE)
+    _sent(stage, *stage.to_vehicle)
     for entries in _by_topic(stage):
         times = [_time(entry) for entry in entries]
         for before, after in zip(times, times[1:]):
@@ -124,7 +138,7 @@ def _time(entry: Entry) -> datetime:
 def version(stage: Stage) -> None:
     """version is that which is tried."""
     ours = stage.codec.version.rpartition(".")[0]
-    for entry in _sent(stage, *TO_VEHICLE):
+    for entry in _sent(stage, *stage.to_vehicle):
         value = str((entry.value or {}).get("version"))
         demand(value.startswith(ours), f"{entry.topic}: version is {value}")
 
@@ -132,7 +146,7 @@ def version(stage: Stage) -> None:
 @case("identity", "6.4", audit=True)
 def identity(stage: Stage) -> None:
     """manufacturer and serialNumber are those of the vehicle whose topic it is."""
-    for entry in _sent(stage, *TO_VEHICLE):
+    for entry in _sent(stage, *stage.to_vehicle):
         value = entry.value or {}
         name = f"{value.get('manufacturer')}/{value.get('serialNumber')}"
         demand(name == entry.vehicle, f"{entry.topic} is for {name}")
@@ -140,7 +154,7 @@ def identity(stage: Stage) -> None:
 
 @case("qos", "6.2", audit=True)
 def qos(stage: Stage) -> None:
-    """order and instantActions have quality of service 0."""
+    """All that the master sends has quality of service 0."""
     entries = [e for e in stage.observed.entries if not e.retained]
     if not entries:
         raise Untestable("the master sent nothing")
@@ -150,11 +164,11 @@ def qos(stage: Stage) -> None:
 
 @case("retained", "6.14", audit=True, strict=True)
 def retained(stage: Stage) -> None:
-    """order and instantActions are not retained: a vehicle that comes back would get an old one."""
-    _sent(stage, *TO_VEHICLE)
+    """Nothing that the master sends is retained: a vehicle that comes back would get old orders."""
+    _sent(stage, *stage.to_vehicle)
     mark = len(stage.observed.entries)
     for actor in stage.actors:
-        for kind in TO_VEHICLE:
+        for kind in stage.to_vehicle:
             stage.wire.hear(stage.topics.of(actor.role.identity, kind))
     stage.wait(1.0)
     kept = [e for e in stage.observed.entries[mark:] if e.retained and e.payload]
@@ -163,7 +177,8 @@ def retained(stage: Stage) -> None:
 
 @case("own_topics", "6.5", audit=True)
 def own_topics(stage: Stage) -> None:
-    """The master sends order and instantActions; the other topics are the vehicle's."""
-    _sent(stage, *TO_VEHICLE)
+    """The master sends orders, instant actions, and in 3.0 zone sets and responses; the vehicle
+    sends the rest."""
+    _sent(stage, *stage.to_vehicle)
     entries = stage.foreign.entries
     demand(not entries, f"{entries and entries[0].topic} was not sent by the vehicle")

@@ -26,10 +26,11 @@ def _drive(stage: Stage, travel: Travel) -> None:
     mark = stage.mark
     stage.an_order(mark)
     stage.wait(2 * stage.settings.watch)
-    _demand_sound(stage, mark)
+    demand_sound(stage, mark)
 
 
-def _demand_sound(stage: Stage, mark: int) -> None:
+def demand_sound(stage: Stage, mark: int) -> None:
+    """Demands that each order since some message fits what its vehicle had."""
     for entry in stage.received(Kind.ORDER, mark):
         value = entry.value or {}
         had, busy = value_of(entry.scene, "order"), value_of(entry.scene, "busy")

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Commands over topics are noted with the node that sent them."""
+
+import json
+
+import pytest
+from fake_ros import FakeRos
+
+from warehouse_msgs.msg import Command
+from warehouse_viewer.api.command_log import CommandLog
+from warehouse_viewer.ros.heard_commands import CommandNotes, hear
+
+STOP = "kiva_id: 1\nstop: 1\n"
+
+
+@pytest.fixture
+def log():
+    return CommandLog(lambda: 7.5)
+
+
+@pytest.fixture
+def hears(log):
+    ros = FakeRos()
+    hear(ros, CommandNotes(ros, log).note)
+    assert list(ros.callbacks) == ["warehouse/commands"]  # the world alone hears commands
+    return ros.callbacks["warehouse/commands"]
+
+
+def test_a_command_has_the_name_of_the_node_that_sent_it(hears, log):
+    hears(Command("/mov", "/rostopic_4711", "kiva_id: 3\nx: 2.0\ny: 1.0\n"))
+    hears(Command("/stop", "/planner", STOP))
+    first, second = log.rows()
+    assert (first["by"], first["method"], first["path"]) == ("/rostopic_4711", "TOPIC", "/mov")
+    assert json.loads(first["body"]) == {"kiva_id": 3, "x": 2.0, "y": 1.0}
+    assert (first["status"], first["time"], second["by"]) == (0, 7.5, "/planner")
+    assert "/rostopic_4711,,TOPIC,/mov" in log.csv()
+
+
+def test_the_viewers_own_and_the_coordinators_are_not_noted(hears, log):
+    for node in ("/viewer", "/coordinator"):
+        hears(Command("/stop", node, STOP))
+    assert log.rows() == []
