@@ -43,8 +43,14 @@ def process(*command, **options):
 
 
 def program(name):
-    """Returns how one of the programs in src/*/nodes is called."""
-    return next(ROOT.glob(f"src/*/nodes/{name}"))
+    """Returns where one of the programs in src/*/nodes is; PACKAGE/NAME, as two may have a name.
+    Raises LookupError where that is not one program."""
+    package, _, node = name.rpartition("/")
+    places = sorted(ROOT.glob(f"src/{package or '*'}/nodes/{node}"))
+    if len(places) != 1:
+        packages = ", ".join(each.parents[1].name for each in places) or "no package"
+        raise LookupError(f"{name}: {packages} has it; name one program as PACKAGE/NAME")
+    return places[0]
 
 
 def run(name, *arguments):
@@ -57,7 +63,16 @@ def run(name, *arguments):
 def served(node, *arguments):
     """The address that a program of the viewer tells: edit, replay or whatif."""
     with process(program(node), *arguments, "--port", 0, stdout=subprocess.PIPE) as server:
-        yield re.search(r"http://\S+", server.stdout.readline())[0]
+        line = server.stdout.readline()
+        address = re.search(r"http://\S+", line)
+        if address is None:
+            raise RuntimeError(f"{node} gave no address: {line.strip() or 'it ended at once'}")
+        yield address[0]
+
+
+def replayed(recording):
+    """The address of the page that plays a recording, as of served()."""
+    return served("warehouse_viewer/replay", recording, "--no-browser")
 
 
 @contextmanager

@@ -8,10 +8,11 @@ import json
 import rospy
 import rostest
 from rostest_support import axe
-from rostest_support.node_test import Listener, wait_until
+from rostest_support.node_test import Listener, call, wait_until
 from rostest_support.page_test import PageTest, ask
 
 from warehouse_msgs.msg import CoordinatorState
+from warehouse_msgs.srv import OpenZone
 
 SHOWN = "document.querySelector('#labels .sign.waiting:not([hidden])')"
 WAITS = "document.getElementById('zone-waits').textContent"
@@ -140,6 +141,20 @@ class ZonesPage(PageTest):
         status, answer = ask("/zones/77", method="DELETE")
         self.assertEqual((status, answer["detail"]), (409, "there is no closed zone 77"))
         self.assertEqual(ask("/zones/check?x1=nan&y1=0&x2=0&y2=0")[0], 422)
+
+    def test_a_call_of_a_service_is_told_with_its_node(self):
+        call("/warehouse/open_zone", OpenZone, zone_id=77, by="Ann")
+
+        def mine():
+            rows = ask("/commands")[1]["commands"]
+            return [row for row in rows if row["by"] == rospy.get_name()]
+
+        wait_until(mine, "the journal to have the call")
+        row = mine()[-1]
+        self.assertEqual((row["method"], row["path"]), ("SERVICE", "/warehouse/open_zone"))
+        self.assertEqual(json.loads(row["body"])["zone_id"], 77)
+        ask("/zones/77", method="DELETE")
+        self.assertFalse([r for r in ask("/commands")[1]["commands"] if r["by"] == "/viewer"])
 
 
 if __name__ == "__main__":

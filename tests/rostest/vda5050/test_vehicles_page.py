@@ -170,6 +170,9 @@ class VehiclesPage(PageTest):
         )
 
     def test_6_it_is_removed(self):
+        status, answer = ask(f"/robots/{NUMBER}", method="DELETE")
+        why = f"kiva{NUMBER} is a vehicle at a broker: remove it among vehicles"
+        self.assertEqual((status, answer["detail"]), (409, why))
         self.press("Remove")
         self.page.click_on("question-yes")
         self.page.until(f"{ANSWER} === 'kiva{NUMBER} is no robot here any more'")

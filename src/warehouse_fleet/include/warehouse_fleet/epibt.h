@@ -25,7 +25,7 @@ struct EpibtOptions {
   int patience = 30;   ///< ticks in a cell after which others make way for a robot
   /// Largest number of robots that pursue their goals at a time, as a share of the passable cells.
   /// Others yield: they go where they are pushed until it is their turn.
-  double pursuing = 0.5;
+  double pursuing = 0.45;
   /// Ticks of the windows in which a sparse fleet is planned if the budget allows it, 7 to 31. 0:
   /// 15, if there are three cells a robot and the first step's budget allows it. -1: no windows.
   int window = 0;

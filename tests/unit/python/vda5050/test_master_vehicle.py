@@ -205,6 +205,22 @@ def test_a_refused_update_leaves_what_the_vehicle_has(bench):
     assert (again.update, again.nodes[0].id, len(again.base)) == (2, "c6_5", 2)
 
 
+def test_a_standing_vehicle_whose_path_can_not_go_on_as_asked_is_let_go(bench):
+    """The coordinator may go back farther after a refused update than the vehicle did."""
+    order = bench.follow(3)
+    other = Follow(9, 2, ((1.0, 0.0), (1.0, 1.0)), 3)
+    for _ in range(20):
+        bench.vehicle.command(other)
+    assert {kind for kind, _ in bench.events()} == {"ACCEPTED", "REFUSED"}  # it drives
+    bench.take(order, at=4)
+    bench.vehicle.command(other)
+    ((kind, text),) = bench.events()
+    assert kind == "BLOCKED" and "can't be replaced: 3 of 4 are released" in text
+    assert [action.type for action in bench.instants()] == ["cancelOrder"]
+    bench.tell(nodes=())
+    assert not bench.vehicle.waits
+
+
 def test_a_vehicle_that_refuses_is_asked_less_and_less_often(bench):
     bench.follow(2)
     times = []

@@ -10,6 +10,7 @@ import rospy
 
 from gazebo_msgs.msg import ModelState
 from gazebo_msgs.srv import SetModelState
+from warehouse_client.command_services import CommandServices
 from warehouse_fleet.hosts.event_publisher import EventPublisher
 from warehouse_fleet.hosts.fleet_driver import square
 from warehouse_fleet.traffic.traffic import STAYS
@@ -63,11 +64,12 @@ class CoordinatorServices:
     def __init__(self, host: Host) -> None:
         self._host = host
         self._place = rospy.ServiceProxy("gazebo/set_model_state", SetModelState)
-        rospy.Service("warehouse/transport", Transport, self._on_transport)
-        rospy.Service("warehouse/release_transport", ReleaseTransport, self._on_release)
-        rospy.Service("warehouse/cancel_transport", CancelTransport, self._on_cancel)
-        rospy.Service("warehouse/tow", Tow, self._on_tow)
-        rospy.Service("warehouse/set_robot_mode", SetRobotMode, self._on_mode)
+        services = CommandServices(rospy)
+        services.serve("warehouse/transport", Transport, self._on_transport)
+        services.serve("warehouse/release_transport", ReleaseTransport, self._on_release)
+        services.serve("warehouse/cancel_transport", CancelTransport, self._on_cancel)
+        services.serve("warehouse/tow", Tow, self._on_tow)
+        services.serve("warehouse/set_robot_mode", SetRobotMode, self._on_mode)
 
     def _on_transport(self, request: TransportRequest) -> TransportResponse:
         host = self._host

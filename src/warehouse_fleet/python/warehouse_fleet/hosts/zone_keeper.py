@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import rospy
 
+from warehouse_client.command_services import CommandServices
 from warehouse_fleet.hosts.controller import FleetController
 from warehouse_fleet.hosts.coordinator_services import Host
 from warehouse_fleet.hosts.zone_messages import (
@@ -50,8 +51,9 @@ class ZoneKeeper:
         self._floor, self._time, self._zones, self._last = "", 0.0, list[ClosedZone](), 0
         self._restore(rospy.get_param(KEPT, None))
         self._topic = rospy.Publisher("warehouse/zones", ClosedZones, latch=True, queue_size=1)
-        rospy.Service("warehouse/close_zone", CloseZone, self._on_close)
-        rospy.Service("warehouse/open_zone", OpenZone, self._on_open)
+        services = CommandServices(rospy)
+        services.serve("warehouse/close_zone", CloseZone, self._on_close)
+        services.serve("warehouse/open_zone", OpenZone, self._on_open)
 
     def _restore(self, kept: Any) -> None:
         """Takes over what a parameter of a node of before holds."""

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs a problem of the League of Robot Runners with a planner, tick by tick."""
 
-import math
 import time
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -12,63 +10,11 @@ from numpy.typing import NDArray
 from warehouse_fleet import Fleet
 from warehouse_fleet.league.delays import Delays
 from warehouse_fleet.league.problem import Problem
+from warehouse_fleet.league.schedulers import NOWHERE, RoundRobin, Scheduler, Shortest
 from warehouse_fleet.planners.planner_plugins import ActionPlanner
 from warehouse_layout import Floor
 
-NOWHERE = -1  # no goal, no task
 LETTERS = np.array(["W", "F", "R", "C"])  # by Action; rows go down, so R is towards +y
-
-
-class RoundRobin:
-    """Gives task k to robot k mod robots, in the order of the file."""
-
-    def __init__(self, problem: Problem) -> None:
-        self.tasks = math.inf if problem.repeats else len(problem.tasks)
-        self.robots = len(problem.agents)
-        self.next = np.arange(self.robots)
-
-    def give(
-        self, free: NDArray[np.integer[Any]], _cells: NDArray[np.integer[Any]]
-    ) -> Iterator[tuple[int, int]]:
-        """Yields (robot, task) for each robot of `free`, (m,), that has a task left."""
-        for robot in free:
-            if self.next[robot] < self.tasks:
-                yield robot, int(self.next[robot])
-                self.next[robot] += self.robots
-
-
-class Nearest:
-    """Gives each robot the revealed task with the shortest way: to its first errand, and on to its
-    last."""
-
-    def __init__(self, problem: Problem) -> None:
-        self.width = problem.passable.shape[1]
-        self.ends = np.array([[task[0], self._length(task)] for task in problem.tasks])
-        self.revealed = max(1, int(problem.reveal * len(problem.agents)))
-        self.shown = min(self.revealed, len(self.ends))
-        self.open = list(range(self.shown))
-
-    def _length(self, task: list[int]) -> int:
-        rows, columns = np.divmod(np.array(task), self.width)
-        return int(np.abs(np.diff(rows)).sum() + np.abs(np.diff(columns)).sum())
-
-    def give(
-        self, free: NDArray[np.integer[Any]], cells: NDArray[np.integer[Any]]
-    ) -> Iterator[tuple[int, int]]:
-        """Yields (robot, task) for each robot of `free`, (m,), as far as tasks are revealed; cells:
-        the cells of all robots, (robots,)."""
-        for robot in free:
-            if not self.open:
-                return
-            starts, lengths = self.ends[self.open].T
-            rows, columns = np.divmod(starts, self.width)
-            row, column = divmod(int(cells[robot]), self.width)
-            far = np.abs(rows - row) + np.abs(columns - column) + lengths
-            yield robot, self.open.pop(int(far.argmin()))
-            # The number of revealed tasks stays the same.
-            if self.shown < len(self.ends):
-                self.open.append(self.shown)
-                self.shown += 1
 
 
 class Lifelong:
@@ -89,8 +35,8 @@ class Lifelong:
         self.goal = np.full(robots, NOWHERE, np.int32)
         self.task = np.full(robots, NOWHERE)
         self.errand = np.zeros(robots, int)
-        self.supply: RoundRobin | Nearest = (
-            RoundRobin(problem) if problem.round_robin else Nearest(problem)
+        self.scheduler: Scheduler = (
+            RoundRobin(problem) if problem.round_robin else Shortest(problem)
         )
         self.delays = Delays(problem.delays, robots) if problem.delays else None
         self.tick = 0
@@ -127,10 +73,11 @@ class Lifelong:
             return
         self.finished += 1
         self.task[robot] = self.goal[robot] = NOWHERE
+        self.errand[robot] = 0
 
     def _give(self) -> None:
-        free = np.flatnonzero(self.task == NOWHERE)
-        for robot, task in self.supply.give(free, self.cell):
+        dealt = [*self.scheduler.give(self.task, self.errand, self.cell, self.finished)]
+        for robot, task in dealt:
             self.task[robot], self.errand[robot] = task, 0
             self.goal[robot] = self.problem.errands(task)[0]
             self.schedule[robot].append(f"{self.tick}:{task}")
@@ -141,7 +88,7 @@ class Lifelong:
         place = [divmod(int(cell), width) for cell in self.problem.agents]
         letters = LETTERS[np.array(self.actions, int).reshape(self.tick, len(place))]
         paths = [",".join(row) for row in letters.T]
-        errand = sorted(int(errand.split(":")[1]) for row in self.schedule for errand in row)
+        errand = sorted({int(entry.split(":")[1]) for row in self.schedule for entry in row})
         return {
             "actionModel": "MAPF_T",
             "version": "2024 LoRR",

@@ -6,6 +6,7 @@ clockwise.
 """
 
 import json
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from os import PathLike
@@ -37,6 +38,13 @@ class Problem:
     repeats: bool = False  # after the last task comes the first one again
     delays: DelayModel | None = None
     source: str = field(default="", repr=False)  # the path of its file
+
+    @property
+    def revealed(self) -> float:
+        """How many unfinished tasks are known at a time, the robots' own among them."""
+        if self.round_robin:
+            return math.inf
+        return max(1, int(self.reveal * len(self.agents)))
 
     def errands(self, task: int) -> list[int]:
         """Returns the locations of a task, to be visited in order."""
@@ -76,7 +84,7 @@ def read(path: str | PathLike[str]) -> Problem:
         [line for _, line in tasks.lines],
         strategy != "greedy",
         float(reveal),
-        strategy == "roundrobin",
+        strategy != "roundrobin-fixed",
         _delays(path, data),
         str(path),
     )

@@ -109,13 +109,20 @@ def _drive(
 def _check_tasks(
     problem: Problem, data: dict[str, Any], cell: NDArray[np.int32], checked: Checked
 ) -> None:
-    """Counts the tasks whose errands were done in order, each by the robot in its cell."""
+    """Counts the tasks whose errands were done in order, each by the robot in its cell, once the
+    task was revealed."""
     events = [event for event in data.get("events", []) if len(event) == 4]
     if not events or not all(isinstance(part, int) for part in events[0]):
         return  # the format of 2023 does not list errands
     done: dict[int, int] = {}
     finished = 0
     for tick, robot, task, errand in events:
+        if task >= problem.revealed + finished:
+            checked.faults.append(
+                f"tick {tick}: task {task} was not revealed yet: {problem.revealed} are known at a "
+                f"time, and {finished} were done"
+            )
+            continue
         errands = problem.errands(task)
         is_there = (
             0 <= tick < len(cell)

@@ -34,12 +34,16 @@ class MostLines:
     """Chooses the unit that completes most lines; of equals, the one with most pieces for others.
 
     reach: how much longer than the nearest unit it may take [s]; None: as Whereabouts.reach says. A
-    station without units on the way gets the nearest one: it stands idle until then. Raises
-    ValueError for a reach below 0.
+    station without units on the way gets the nearest one: it stands idle until then. ahead: as
+    that of is_early(). Raises ValueError for a reach or an ahead below 0.
     """
 
-    def __init__(self, reach: float | None = None) -> None:
-        self.reach = _checked(reach)
+    def __init__(self, reach: float | None = None, ahead: float | None = None) -> None:
+        self.reach, self.ahead = _checked("reach", reach), _checked("ahead", ahead)
+
+    def is_early(self, station: WorkStation) -> bool:
+        """Returns whether no unit is to be chosen yet."""
+        return is_early(station, self.ahead)
 
     def choose(self, station: WorkStation, candidates: Candidates, view: "View") -> int:
         """Returns the unit, one of candidates, that is brought to a station."""
@@ -54,11 +58,15 @@ class MostLines:
 class MostWork:
     """Chooses the unit with most pieces for the station's orders and the backlog.
 
-    reach: as that of MostLines. Raises ValueError for one below 0.
+    reach, ahead: as those of MostLines. Raises ValueError for one below 0.
     """
 
-    def __init__(self, reach: float | None = None) -> None:
-        self.reach = _checked(reach)
+    def __init__(self, reach: float | None = None, ahead: float | None = None) -> None:
+        self.reach, self.ahead = _checked("reach", reach), _checked("ahead", ahead)
+
+    def is_early(self, station: WorkStation) -> bool:
+        """Returns whether no unit is to be chosen yet."""
+        return is_early(station, self.ahead)
 
     def choose(self, station: WorkStation, candidates: Candidates, view: "View") -> int:
         """Returns the unit, one of candidates, that is brought to a station."""
@@ -66,10 +74,16 @@ class MostWork:
         return _most_work(_within(self.reach, seconds, view), seconds, candidates, view)
 
 
-def _checked(reach: float | None) -> float | None:
-    if reach is not None and not reach >= 0:
-        raise ValueError(f"reach is {reach}; 0 s or more was expected")
-    return reach
+def is_early(station: WorkStation, ahead: float | None) -> bool:
+    """Returns whether the units at a station and on their way to it are work for longer than
+    `ahead` [s]: a later choice knows more orders. None: never."""
+    return ahead is not None and station.seconds_to_pick() > ahead
+
+
+def _checked(name: str, seconds: float | None) -> float | None:
+    if seconds is not None and not seconds >= 0:
+        raise ValueError(f"{name} is {seconds}; 0 s or more was expected")
+    return seconds
 
 
 def _within(reach: float | None, seconds: np.ndarray, view: "View") -> np.ndarray:

@@ -7,6 +7,7 @@ from typing import Any, Protocol
 import rospy
 from sqlalchemy.engine import Engine
 
+from warehouse_client.command_services import CommandServices
 from warehouse_layout.message_enums import PickOutcome
 from warehouse_msgs import srv
 from warehouse_operations.ros.operation_messages import (
@@ -46,17 +47,21 @@ class ShiftServices:
 
     def __init__(self, host: Host) -> None:
         self._host = host
+        commands = CommandServices(rospy)
         for name, kind, call in (
             ("submit_order", srv.SubmitOrder, self._submit),
             ("submit_orders", srv.SubmitOrders, self._submit_table),
             ("cancel_order", srv.CancelOrder, self._cancel),
             ("change_order", srv.ChangeOrder, self._change),
-            ("order_history", srv.OrderHistory, self._history),
             ("set_station", srv.SetStation, self._set_station),
             ("confirm_pick", srv.ConfirmPick, self._confirm),
             ("report_short", srv.ReportShort, self._report_short),
             ("report_pick", srv.ReportPick, self._report_pick),
             ("undo_write_off", srv.UndoWriteOff, self._undo_write_off),
+        ):
+            commands.serve(f"warehouse/{name}", kind, call)
+        for name, kind, call in (
+            ("order_history", srv.OrderHistory, self._history),
             ("find_orders", srv.FindOrders, self._find_orders),
             ("find_stock", srv.FindStock, self._find_stock),
             ("find_skus", srv.FindSkus, self._find_skus),

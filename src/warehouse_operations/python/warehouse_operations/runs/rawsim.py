@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads instances (.xinst) of RAWSim-O as a Site."""
+"""Reads instances (.xinst) and layout configurations (.xlayo) of RAWSim-O as a Site."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -11,6 +11,7 @@ from warehouse_layout.convert.common import PathName
 from warehouse_layout.convert.rawsim.instance import read_floor
 from warehouse_layout.convert.rawsim.xml_fields import InstanceError, number_of
 from warehouse_operations.goods.kinds import Goods, Kinds
+from warehouse_operations.runs import rawsim_layout
 from warehouse_operations.stock.settings import Settings
 from warehouse_operations.stock.site import Site
 
@@ -20,7 +21,9 @@ CAPACITY = 500.0  # weight that a pod holds, unless its element says another
 
 
 def read_instance(path: PathName) -> Site:
-    """Returns the Site of an .xinst file. Raises InstanceError."""
+    """Returns the Site of an .xinst or .xlayo file. Raises InstanceError."""
+    if rawsim_layout.is_configuration(path):
+        return rawsim_layout.read(path)
     instance = read_floor(path)
     goods = Goods(
         Kinds.drawn(),

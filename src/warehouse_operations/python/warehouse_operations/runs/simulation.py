@@ -63,7 +63,7 @@ class Description:
     robots: int = 0  # overrides the layout's or the preset's number; 0: does not override it
     units: int = 0  # storage units of a generated warehouse; 0: it is not generated
     stations: int = 0  # picking stations that are open, the first ones; 0: all
-    instance: str = ""  # an .xinst file
+    instance: str = ""  # an .xinst or .xlayo file
     settings: str = ""  # an .xsett file
     seconds: float = 3600.0
     orders: str = "fill"

@@ -49,6 +49,7 @@ class Picking:
         self._to_assign: dict[WorkStation, None] = dict.fromkeys(stations)
         self._to_fetch: dict[WorkStation, None] = {}
         self._is_to_look, self._next_look = False, -math.inf
+        self._early: set[WorkStation] = set()  # stations whose policy waits with the next unit
         self._effort = EFFORT  # left in this step
         self._put_off: dict[WorkStation, None] = {}  # stations that wait for more effort
         # The stations of lines without a unit, by (order, line), by SKU.
@@ -230,12 +231,16 @@ class Picking:
     # Units.
 
     def _fetch(self, station: WorkStation) -> None:
-        limit = self._visits.most
+        limit, policy = self._visits.most, self._policies.units
+        is_early = getattr(policy, "is_early", lambda _: False)
         while station.is_open and station.missing and len(station.coming) < limit:
+            if is_early(station):
+                self._early.add(station)
+                return
             candidates = self._candidates(station)
             if not candidates:
                 return
-            unit = self._policies.units.choose(station, candidates, self._view)
+            unit = policy.choose(station, candidates, self._view)
             visit = self._visits.request(unit, station)
             if not visit:
                 self._clock.schedule(self._clock.now + RETRY, self._retry, station)
@@ -307,6 +312,9 @@ class Picking:
             visit.picks.remove(pick)
         visit.pieces += pieces
         station.pieces += pieces
+        if station in self._early:
+            self._early.remove(station)
+            self._to_fetch[station] = None
         self._context.tally.picked(self._clock.now, pieces, line)
         self._context.journal.line(line)
         self._order_book.publish_event(

@@ -193,6 +193,14 @@ class WorkStation:
         """Returns those of them for bundles, or for orders."""
         return [visit for visit in self.coming if visit.replenishes == replenishes]
 
+    def seconds_to_pick(self) -> float:
+        """Returns how long its pickers work on what is reserved on those units [s]; infinite in a
+        break, unless nothing is."""
+        pieces = sum(pick.quantity for v in self.coming_for(replenishes=False) for pick in v.picks)
+        if not pieces:
+            return 0.0
+        return pieces * self.seconds_a_piece / self.pickers if self.pickers else math.inf
+
     def waiting(self, now: float) -> float:
         """Returns the time that a task has waited for a person [s]; 0 without a task."""
         visit = self.here

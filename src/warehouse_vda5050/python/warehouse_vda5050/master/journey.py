@@ -37,6 +37,7 @@ class Journey:
     lift: Lift | None = None  # that it is made for
     heading: float | None = None  # of a path that is to put the vehicle straight [rad]
     edge_demands: EdgeDemands = field(default=lambda _start, _end: (), repr=False)
+    disputes: int = 0  # changes in a row that were refused
     max_nodes: int = 1000  # of one message; what is beyond comes in the next
 
     def change(self, command: Follow) -> None:

@@ -42,6 +42,7 @@ from warehouse_vda5050.model import (
 ASKS_AFTER = 3  # orders sent again: the state that answers may be lost
 UNIT = re.compile(r"(?:storage_unit)?([0-9]{1,9})")  # other names are a vehicle's own
 NEAR = 0.5  # largest distance from point 0 at the start, and from the path while driving [cells]
+DISPUTES = 5  # refused changes of its path in a row that a standing vehicle's path outlasts
 BACK_OFF = (1.0, 30.0)  # the first and the longest wait after an order that was refused [s]
 
 
@@ -257,7 +258,7 @@ class RemoteVehicle:
         if way and not way.lift and command.path_id == way.path_id:
             if self._phase is Phase.CANCELLING:
                 raise RefusedError("its path is being cancelled")
-            way.change(command)
+            self._change(way, command)
             return
         self._check_ready()
         if command.path_id == 0:
@@ -269,6 +270,20 @@ class RemoteVehicle:
         way.edge_demands = self.abilities.edge_demands
         self._begin(way, f"follow path {way.path_id}")
         self.path_id, self.reached = way.path_id, 1
+
+    def _change(self, way: Journey, command: Follow) -> None:
+        """Changes the path under way. The path of a standing vehicle that is asked again and again
+        for what can't be, since a base is never taken back, ends. Raises RefusedError."""
+        try:
+            way.change(command)
+        except RefusedError as refusal:
+            way.disputes += 1
+            if way.disputes < DISPUTES or not self.waits:
+                raise
+            self._end(EventKind.BLOCKED, f"its path can't go on: {refusal}")
+            self._clear()
+        else:
+            way.disputes = 0
 
     def _begin_lift(self, command: Lift) -> None:
         self._check_ready()

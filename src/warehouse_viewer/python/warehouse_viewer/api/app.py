@@ -35,7 +35,7 @@ from warehouse_viewer.ros.commander import Commander
 from warehouse_viewer.ros.coordination import Coordination
 from warehouse_viewer.ros.emergency_stop import EmergencyStop
 from warehouse_viewer.ros.feed import Feed
-from warehouse_viewer.ros.heard_commands import CommandNotes, hear
+from warehouse_viewer.ros.heard_commands import CommandNotes, hear, hear_calls
 from warehouse_viewer.ros.operations_client import OperationsClient
 from warehouse_viewer.ros.shift_feed import ShiftFeed
 from warehouse_viewer.ros.simulation import Simulation
@@ -106,7 +106,9 @@ class Viewer:
             self._tell,
         )
         self.commands = CommandLog(lambda: self.monitor.now)
-        hear(ros, self.stop.hear, CommandNotes(ros, self.commands).note)
+        notes = CommandNotes(ros, self.commands)
+        hear(ros, self.stop.hear, notes.note)
+        hear_calls(ros, notes.note_call)
         self.metrics = Metrics(feed, operations)
         self.backend = ApiBackend(
             feed,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Who commanded what: clicks on pages and requests of programs over HTTP, commands over topics."""
+"""Who commanded what: clicks on pages and requests of programs over HTTP, commands over ROS."""
 
 import csv
 import io

@@ -1,24 +1,28 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Commands that came over ROS topics: of people with rostopic, and of programs of others."""
+"""Commands that came over ROS topics and services: of people with rostopic and rosservice, and of
+programs of others."""
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from types import ModuleType
 from typing import Any, NamedTuple
 
 import yaml
 
+from warehouse_client.command_services import CALLS
 from warehouse_client.message_check import subscribe
 from warehouse_msgs.msg import Command
 from warehouse_viewer.api.command_log import MOST_TEXT, CommandLog
 
-COORDINATOR = "coordinator"
-TOPIC = "TOPIC"  # instead of an HTTP method
-UNANSWERED = 0  # status: a topic has no answer; the events have it
+COORDINATOR, SHIFT = "coordinator", "operations"  # nodes that command by themselves
+TOPIC, SERVICE = "TOPIC", "SERVICE"  # instead of an HTTP method
+UNNAMED = "a ROS service"  # instead of a caller that did not say its name
+UNANSWERED = 0  # status: a topic has no answer, and a service's is its caller's; events have it
 
 
 class Heard(NamedTuple):
-    """A command as its sender gave it; `fields` are those of its message."""
+    """A command as its sender gave it; `fields` are those of its message or request, `topic` is the
+    name of the topic or service."""
 
     topic: str
     sender: str
@@ -32,33 +36,49 @@ def hear(ros: ModuleType, *takers: Callable[[Heard], None]) -> None:
     before it commands has that to the world.
     """
 
+    _subscribe(ros, "warehouse/commands", takers)
+
+
+def hear_calls(ros: ModuleType, *takers: Callable[[Heard], None]) -> None:
+    """Passes each call of a service that changes something to the takers."""
+    _subscribe(ros, CALLS, takers)
+
+
+def _subscribe(ros: ModuleType, topic: str, takers: Sequence[Callable[[Heard], None]]) -> None:
     def take(command: Command) -> None:
-        heard = Heard(command.topic, command.sender, yaml.safe_load(command.fields))
+        heard = Heard(command.topic, command.sender, yaml.safe_load(command.fields) or {})
         for taker in takers:
             taker(heard)
 
-    subscribe(ros, "warehouse/commands", Command, take, queue_size=1000)
+    subscribe(ros, topic, Command, take, queue_size=1000)
 
 
 class CommandNotes:
     """Notes each command with the node that sent it.
 
-    Those of this node are requests over HTTP, which are noted as such; the coordinator's are no
-    person's.
+    Those of this node are requests over HTTP, which are noted as such; those of the coordinator and
+    of the shift are no person's.
     """
 
     def __init__(self, ros: ModuleType, log: CommandLog) -> None:
         self._log = log
-        self._spared = ros.get_name(), ros.resolve_name(COORDINATOR)
+        self._spared = ros.get_name(), *map(ros.resolve_name, (COORDINATOR, SHIFT))
 
     def note(self, heard: Heard) -> None:
-        """Notes a command, unless it is one of the spared nodes'."""
+        """Notes a command over a topic, unless it is one of the spared nodes'."""
+        self._add(TOPIC, heard)
+
+    def note_call(self, heard: Heard) -> None:
+        """Notes a call of a service, unless it is one of the spared nodes'."""
+        self._add(SERVICE, heard)
+
+    def _add(self, method: str, heard: Heard) -> None:
         if heard.sender in self._spared:
             return
         self._log.add(
-            by=heard.sender,
+            by=heard.sender or UNNAMED,
             address="",
-            method=TOPIC,
+            method=method,
             path=heard.topic,
             body=json.dumps(heard.fields)[:MOST_TEXT],
             status=UNANSWERED,

@@ -46,6 +46,11 @@ class Vda5050Feed:
             self._newest.clear()
         return []
 
+    def is_driven(self, number: int) -> bool:
+        """Returns whether a robot is a vehicle that the master of this warehouse drives."""
+        masters = (m for m in self.messages if m.direction == Vda5050.MASTER)
+        return any(number in message.kiva_id for message in masters)
+
     def begin_fault(self, number: int, fault: str, seconds: float) -> None:
         """Lets a vehicle misbehave; '' ends that. Blocks. Raises RefusedError, AwayError."""
         if not is_offered(self._ros, FAULT):

@@ -58,6 +58,28 @@ def test_a_class_of_ones_own(tmp_path, monkeypatch):
     assert max(len(station.orders) for station in ops.shift.picking.stations) == 3
 
 
+def test_units_are_fetched_no_further_ahead_than_told():
+    """The pieces on their way are fewer, and so are the metres that robots drive for a piece."""
+    policies = {"units": {"name": "most lines", "ahead": 30}}
+    ops = Operations(site=site(), physics=False, policies=policies)
+    ahead = []
+
+    def note(ops):
+        ahead.extend(s.seconds_to_pick() for s in ops.shift.picking.stations)
+
+    ops.run(minutes=30, observe=note)
+    usual = Operations(site=site(), physics=False)
+    usual_ahead = []
+    usual.run(
+        minutes=30,
+        observe=lambda ops: usual_ahead.extend(
+            s.seconds_to_pick() for s in ops.shift.picking.stations
+        ),
+    )
+    assert 0 < np.mean(ahead) < 0.7 * np.mean(usual_ahead)
+    assert ops.kpis()["items_picked"] > 100  # no station waits for ever
+
+
 def test_an_object_decides():
     class First:
         def choose(self, station, view):

@@ -78,6 +78,37 @@ def test_ten_minutes_on_the_basic_instance_are_limited_by_its_stations(basic_ins
     assert PUBLISHED <= np.mean(pieces) <= 1.03 * PUBLISHED < BOUND
 
 
+def test_a_layout_configuration_is_an_instance_with_pods_full_by_weight(tmp_path):
+    values = {**BASIC_INSTANCE, "PodCapacity": 50, "TurnSpeed": 4, "ItemBundleTransferTime": 7}
+    site = read_instance(write_configuration(tmp_path / "basic.xlayo", **values))
+    assert (site.plan.shape, len(site.units), len(site.robots)) == ((28, 56), 428, 16)
+    assert site.name == "1-2-2-16-0.85" and site.kinematics.quarter_turn == 1.0
+    assert set(site.goods.limits.values()) == {50.0}
+    assert site.settings.of("pick1").slots == 12
+    assert site.settings.of("replenish1").bundle_s == 7
+
+
+def test_a_shift_on_a_layout_configuration_keeps_to_the_weights(tmp_path):
+    path = write_configuration(tmp_path / "basic.xlayo", **BASIC_INSTANCE)
+    with open_operations(Description(instance=str(path), physics=False)) as ops:
+        ops.run(minutes=10)
+        weight = ops.site.goods.weight
+        for bins in ops.shift.inventory.of_unit.values():
+            assert sum(weight(b.sku) * (b.quantity + b.expected) for b in bins) <= 500
+        assert ops.kpis()["items_picked"] > 0.9 * BOUND
+
+
+def test_a_layout_configuration_with_robots_that_stand_is_refused(tmp_path):
+    path = write_configuration(tmp_path / "a.xlayo", MaxVelocity=0)
+    with pytest.raises(InstanceError, match="MaxVelocity and MaxAcceleration above 0 were"):
+        read_instance(path)
+
+
+def test_ten_minutes_with_physics_on_a_layout_configuration(tmp_path):
+    path = write_configuration(tmp_path / "basic.xlayo", **BASIC_INSTANCE)
+    assert with_physics(1, instance=str(path))["items_picked"] == pytest.approx(PUBLISHED, rel=0.05)
+
+
 SETTINGS = """<SettingConfiguration><SimulationDuration>600</SimulationDuration><Seed>3</Seed>
 <InventoryConfiguration><OrderMode>{mode}</OrderMode><InitialInventory>0.6</InitialInventory>
 <DemandInventoryConfiguration><OrderCount>50</OrderCount><BundleCount>40</BundleCount>

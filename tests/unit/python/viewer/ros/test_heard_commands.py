@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Commands over topics are noted with the node that sent them."""
+"""Commands over topics and services are noted with the node that sent them."""
 
 import json
 
@@ -8,7 +8,7 @@ from fake_ros import FakeRos
 
 from warehouse_msgs.msg import Command
 from warehouse_viewer.api.command_log import CommandLog
-from warehouse_viewer.ros.heard_commands import CommandNotes, hear
+from warehouse_viewer.ros.heard_commands import CommandNotes, hear, hear_calls
 
 STOP = "kiva_id: 1\nstop: 1\n"
 
@@ -39,4 +39,30 @@ def test_a_command_has_the_name_of_the_node_that_sent_it(hears, log):
 def test_the_viewers_own_and_the_coordinators_are_not_noted(hears, log):
     for node in ("/viewer", "/coordinator"):
         hears(Command("/stop", node, STOP))
+    assert log.rows() == []
+
+
+@pytest.fixture
+def hears_calls(log):
+    ros = FakeRos()
+    hear_calls(ros, CommandNotes(ros, log).note_call)
+    assert list(ros.callbacks) == ["warehouse/service_calls"]
+    return ros.callbacks["warehouse/service_calls"]
+
+
+def test_a_call_of_a_service_has_the_name_of_the_node_that_called(hears_calls, log):
+    hears_calls(Command("/warehouse/tow", "/desk", "kiva_id: 3\n"))
+    (row,) = log.rows()
+    assert (row["by"], row["method"], row["path"]) == ("/desk", "SERVICE", "/warehouse/tow")
+    assert json.loads(row["body"]) == {"kiva_id": 3}
+
+
+def test_a_caller_that_does_not_say_its_name_is_a_ros_service(hears_calls, log):
+    hears_calls(Command("/warehouse/tow", "", "{}\n"))
+    assert log.rows()[0]["by"] == "a ROS service"
+
+
+def test_calls_by_the_viewer_the_shift_and_the_coordinator_are_not_noted(hears_calls, log):
+    for node in ("/viewer", "/operations", "/coordinator"):
+        hears_calls(Command("/warehouse/transport", node, "kiva_id: 1\n"))
     assert log.rows() == []

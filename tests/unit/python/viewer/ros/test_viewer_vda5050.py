@@ -151,3 +151,12 @@ def test_vehicles_at_the_broker_come_from_the_master_and_refusals_go_back(monkey
     monkeypatch.setattr(vda5050_feed, "is_offered", lambda _ros, _name: False)
     with pytest.raises(RefusedError, match=r"start master\.launch"):
         feed.seen()
+
+
+def test_a_vehicle_of_the_master_is_known_by_its_number():
+    feed = Vda5050Feed(FakeRos())
+    feed._subscriber.get_num_connections = lambda: 1
+    feed._keep(told())
+    assert not feed.is_driven(7)  # an outside master may drive it: it is a robot of ours
+    feed._keep(told(Vda5050.MASTER))
+    assert feed.is_driven(7) and not feed.is_driven(8)

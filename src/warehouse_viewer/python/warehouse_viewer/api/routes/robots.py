@@ -59,6 +59,8 @@ async def remove_robot(number: int = NUMBER, backend: ApiBackend = BACKEND) -> o
     """Takes away a robot that carries nothing."""
     if (await backend.robot(number)).storage_unit:
         raise HTTPException(409, f"kiva{number} carries a storage unit; have it put down first")
+    if backend.feed.vda5050.is_driven(number):
+        raise HTTPException(409, f"kiva{number} is a vehicle at a broker: remove it among vehicles")
     return {"message": await backend.change("remove_robot", number)}
 
 

@@ -100,19 +100,21 @@ class Outcome(BaseModel):
 
 
 class Commanded(BaseModel):
-    """A request that changes something, and its answer; or a command over a ROS topic."""
+    """A request that changes something, and its answer; or a command over ROS."""
 
     id: int
     time: float = Field(description="[s], simulated")
     wall: str = Field(description="time on the wall, ISO 8601, UTC")
     by: str = Field(
-        description="the person, by header X-Person or `by`; empty: not given; of a topic the node"
+        description="the person, by header X-Person or `by`; empty: not given; of ROS the node"
     )
-    address: str = Field(description="of the client; empty over a topic")
-    method: str = Field(description="of HTTP; TOPIC: it came over a ROS topic")
-    path: str = Field(description="beneath /api/v1, or the topic")
+    address: str = Field(description="of the client; empty over ROS")
+    method: str = Field(description="of HTTP; TOPIC, SERVICE: it came over a ROS topic or service")
+    path: str = Field(description="beneath /api/v1, or the topic or service")
     body: str = Field(description="the request's, or the message's, first 300 characters")
-    status: int = Field(description="of the answer: 200 done, 409 refused; 0: none, as of a topic")
+    status: int = Field(
+        description="of the answer: 200 done, 409 refused; 0: not known, as over ROS"
+    )
 
 
 class Commands(BaseModel):

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which robot does which task of a problem of the League of Robot Runners."""
+
+import math
+from collections.abc import Iterator
+from typing import Any, Protocol, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import shortest_path
+
+from warehouse_fleet.league.problem import Problem
+
+NOWHERE = -1  # no task
+MOST_TABLE = 4_000  # cells of a map with a table of all ways, of 64 MB
+MOST_PAIRS = 1_000_000  # robots times tasks that are weighed at once
+WEIGHT = 0.5  # of a task's length beside the way to it
+STAY = 1.0  # cells by which another robot has to be nearer to take over a task
+UNREACHABLE = 1e6  # cells
+
+Cells: TypeAlias = NDArray[np.integer[Any]]
+
+
+class Scheduler(Protocol):
+    """Deals out tasks."""
+
+    def give(
+        self, task: Cells, errand: Cells, cell: Cells, finished: int
+    ) -> Iterator[tuple[int, int]]:
+        """Yields (robot, task) for each robot that begins another task.
+
+        task, errand, cell, (robots,): its task, NOWHERE without, how many errands of it are done,
+        and where it is. finished: the tasks that are done so far.
+        """
+
+
+class RoundRobin:
+    """Gives task k to robot k mod robots, in the order of the file."""
+
+    def __init__(self, problem: Problem) -> None:
+        self._tasks = math.inf if problem.repeats else len(problem.tasks)
+        self._robots = len(problem.agents)
+        self._next = np.arange(self._robots)
+
+    def give(
+        self, task: Cells, _errand: Cells, _cell: Cells, _finished: int
+    ) -> Iterator[tuple[int, int]]:
+        """Yields a task for each robot without, as far as it has some left."""
+        for robot in np.flatnonzero(task == NOWHERE).tolist():
+            if self._next[robot] < self._tasks:
+                yield robot, int(self._next[robot])
+                self._next[robot] += self._robots
+
+
+class Shortest:
+    """Gives tasks so that the ways to them and half of their own lengths are shortest in all.
+
+    Weighed are the tasks that are revealed, and that no robot has begun: of a robot that is on its
+    way to a task, another one takes it over that is nearer, on fleets of a thousand. Ways are as
+    long as without other robots; on large maps they lead straight through walls.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self._limit = int(problem.revealed)
+        self._ways = _Ways(problem.passable)
+        self._start = np.array([cells[0] for cells in problem.tasks])
+        self._length = self._lengths(problem.tasks)
+        self._open: list[int] = []
+        self._revealed = 0
+
+    def _lengths(self, tasks: list[list[int]]) -> NDArray[np.float64]:
+        """Returns the way through the cells of each task [cells]."""
+        cells = np.concatenate(tasks)
+        begins = np.cumsum([0, *map(len, tasks[:-1])])
+        legs = np.append(self._ways.between(cells[:-1], cells[1:]), 0.0)
+        legs[begins[1:] - 1] = 0.0  # from a task to the next one
+        return np.add.reduceat(legs, begins)
+
+    def give(
+        self, task: Cells, errand: Cells, cell: Cells, finished: int
+    ) -> Iterator[tuple[int, int]]:
+        """Yields a task for robots without, and others for robots that have not begun theirs."""
+        self._reveal(finished)
+        if not (task == NOWHERE).any():
+            return
+        waits = np.flatnonzero((task == NOWHERE) | (errand == 0))
+        if len(waits) * (len(waits) + len(self._open)) > MOST_PAIRS:
+            waits = np.flatnonzero(task == NOWHERE)
+        held = task[waits]
+        self._open += held[held != NOWHERE].tolist()
+        while len(waits) and self._open:
+            some = waits[: max(1, MOST_PAIRS // len(self._open))]
+            waits = waits[len(some) :]
+            for robot, other in self._assigned(some, task[some], cell[some]):
+                if task[robot] != other:
+                    yield robot, other
+
+    def _reveal(self, finished: int) -> None:
+        """Reveals tasks until as many are unfinished as the problem says."""
+        end = finished + self._limit
+        self._open += range(self._revealed, end)
+        self._revealed = end
+
+    def _assigned(self, robots: Cells, held: Cells, cell: Cells) -> list[tuple[int, int]]:
+        """Returns robots with their tasks, and takes these off the open ones."""
+        tasks = np.array(self._open)
+        rows = tasks % len(self._start)  # after the last task comes the first one again
+        cost = self._ways.between(cell[:, None], self._start[rows]) + WEIGHT * self._length[rows]
+        cost -= STAY * (held[:, None] == tasks)
+        robot, column = linear_sum_assignment(np.minimum(cost, UNREACHABLE))
+        dealt = list(zip(robots[robot].tolist(), tasks[column].tolist()))
+        self._open = np.delete(tasks, column).tolist()
+        return dealt
+
+
+class _Ways:
+    """How far cells are from each other [cells]."""
+
+    def __init__(self, passable: NDArray[np.bool_]) -> None:
+        self._width = passable.shape[1]
+        self._table = _table(passable) if passable.size <= MOST_TABLE else None
+
+    def between(self, starts: Cells, ends: Cells) -> NDArray[np.float64]:
+        """Returns the ways from starts to ends, whose shapes are broadcast."""
+        if self._table is not None:
+            return self._table[starts, ends].astype(float)
+        rows, columns = np.divmod(starts, self._width)
+        other_rows, other_columns = np.divmod(ends, self._width)
+        return (np.abs(rows - other_rows) + np.abs(columns - other_columns)).astype(float)
+
+
+def _table(passable: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """Returns the ways between all cells, (cells, cells)."""
+    cells = np.arange(passable.size).reshape(passable.shape)
+    across, along = passable[:, :-1] & passable[:, 1:], passable[:-1] & passable[1:]
+    starts = np.concatenate([cells[:, :-1][across], cells[:-1][along]])
+    ends = np.concatenate([cells[:, 1:][across], cells[1:][along]])
+    graph = csr_matrix((np.ones(len(starts)), (starts, ends)), shape=(passable.size,) * 2)
+    return shortest_path(graph, unweighted=True, directed=False).astype(np.float32)

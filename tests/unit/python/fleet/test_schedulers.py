@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which robot does which task of a problem of the League of Robot Runners."""
+
+import numpy as np
+import pytest
+
+from warehouse_fleet.league import schedulers
+from warehouse_fleet.league.problem import Problem
+from warehouse_fleet.league.schedulers import NOWHERE, Shortest
+
+CORRIDOR = np.ones((1, 20), bool)
+WALL = np.ones((3, 20), bool)
+WALL[:2, 10] = False
+
+
+def of(tasks, robots, reveal=10.0, passable=CORRIDOR):
+    return Shortest(Problem(passable, np.array(robots, np.int32), tasks, reveal=reveal))
+
+
+def dealt(scheduler, task, errand, cell, finished=0):
+    return dict(scheduler.give(*map(np.array, (task, errand, cell)), finished))
+
+
+def test_ways_are_shortest_in_all():
+    # The first robot is nearest to both tasks.
+    scheduler = of([[6, 7], [8, 9]], [7, 12])
+    assert dealt(scheduler, [NOWHERE] * 2, [0, 0], [7, 12]) == {0: 0, 1: 1}
+
+
+def test_a_short_task_comes_before_a_long_one_as_far_away():
+    assert dealt(of([[2, 19], [8, 9]], [5]), [NOWHERE], [0], [5]) == {0: 1}
+
+
+def test_a_nearer_robot_takes_a_task_over_that_is_not_begun():
+    scheduler = of([[10, 11], [19, 18], [0, 1]], [0, 9], reveal=1)
+    assert dealt(scheduler, [NOWHERE, NOWHERE], [0, 0], [9, 18]) == {0: 0, 1: 1}
+    # The second robot has done task 1 beside task 0, which the first one has not begun.
+    assert dealt(scheduler, [0, NOWHERE], [0, 0], [0, 11], finished=1) == {1: 0, 0: 2}
+
+
+def test_a_task_that_is_begun_stays_with_its_robot():
+    scheduler = of([[10, 11], [19, 18]], [0, 9], reveal=1)
+    dealt(scheduler, [NOWHERE, NOWHERE], [0, 0], [9, 18])
+    assert dealt(scheduler, [0, NOWHERE], [1, 0], [0, 11], finished=1) == {1: 2}
+
+
+def test_as_many_tasks_are_known_as_the_problem_says_and_the_first_come_again():
+    scheduler = of([[5, 6], [0, 1]], [0], reveal=1)
+    assert dealt(scheduler, [NOWHERE], [0], [0]) == {0: 0}
+    assert dealt(scheduler, [NOWHERE], [0], [6], finished=1) == {0: 1}
+    assert dealt(scheduler, [NOWHERE], [0], [1], finished=2) == {0: 2}
+
+
+@pytest.mark.parametrize("most, first", [(4000, 1), (1, 0)])
+def test_ways_lead_around_walls_but_on_large_maps(monkeypatch, most, first):
+    monkeypatch.setattr(schedulers, "MOST_TABLE", most)
+    scheduler = of([[11, 11], [5, 5]], [9], passable=WALL)
+    assert dealt(scheduler, [NOWHERE], [0], [9]) == {0: first}
+
+
+def test_large_fleets_are_dealt_tasks_in_parts(monkeypatch):
+    monkeypatch.setattr(schedulers, "MOST_PAIRS", 4)
+    scheduler = of([[i, i] for i in range(6)], [0, 1, 2, 3, 4, 5], reveal=1)
+    assert sorted(dealt(scheduler, [NOWHERE] * 6, [0] * 6, range(6)).values()) == [*range(6)]
