@@ -7,6 +7,7 @@
 #include <boost/container/small_vector.hpp>
 #include <cmath>
 
+#include "core/geometry/box_rays.h"
 #include "core/geometry/footprint_ray.h"
 #include "core/geometry/infinity.h"
 #include "core/geometry/obstacles.h"
@@ -15,18 +16,23 @@ namespace kiva {
 namespace {
 
 constexpr double kAngleError = 1e-3;  // [rad] error of angleOf(), with a large margin
-constexpr double kTouching = 1e-6;    // [m]; a laser that close to a surface may be inside it
+constexpr double kRounding = 1e-6;    // share of a position by which single precision may be off
+constexpr int kFewCells = 24;
+constexpr double kTouching = 1e-6;  // [m]; a laser that close to a surface may be inside it
 
 /// Adjacent rays of a fan.
 struct RayInterval {
   int first = 0, last = -1;
 };
 
-/// A footprint relative to the laser, and the rays that may meet it.
-struct RayTarget : FlatPose {
-  const Footprint* shape = nullptr;
-  RayInterval rays[3];  // the whole circle, and both ends of the fan
+/// What rays may meet, relative to the laser, and the rays that may meet it.
+struct RayTarget {
+  BoxTarget box;                     // if it is another footprint, its pose
+  const Footprint* other = nullptr;  // null for a box
+  RayInterval rays[3];               // the whole circle, and both ends of the fan
   int parts = 0;
+
+  FlatPose pose() const { return {box.x, box.y, box.c, box.s}; }
 };
 
 /// Returns the angle of a direction [rad], within kAngleError.
@@ -39,120 +45,131 @@ double angleOf(double x, double y) {
   return y < 0 ? -angle : angle;
 }
 
-/// Returns the directions from the laser in which a target lies, counterclockwise; they may exceed
-/// ±π. Returns false if the target surrounds the laser.
-bool anglesTo(const RayTarget& t, double* from, double* to) {
-  const Footprint& f = *t.shape;
-  if (f.kind != Footprint::Kind::kBox) {
-    const double radius = radiusOf(f), square = t.x * t.x + t.y * t.y - radius * radius;
-    if (square < kTouching * kTouching) return false;
-    const double middle = angleOf(t.x, t.y), half = angleOf(std::sqrt(square), radius);
-    *from = middle - half;
-    *to = middle + half;
-    return true;
-  }
-  // The target lies between two of its corners, which depend on the direction of view.
+/// The directions from the laser in which a target lies [rad], counterclockwise; they may exceed
+/// ±π.
+struct Directions {
+  double from = 0, to = 0;
+  bool all = false;  ///< The target surrounds the laser.
+};
+
+Directions directionsTo(double x, double y, double radius) {
+  const double square = x * x + y * y - radius * radius;
+  if (square < kTouching * kTouching) return {0, 0, true};
+  const double middle = angleOf(x, y), half = angleOf(std::sqrt(square), radius);
+  return {middle - half, middle + half};
+}
+
+/// Returns more directions than a circle takes, which is quicker: the tangent of half its angle,
+/// for the angle. `square`: of the distance along a tangent [m²], at least that of the radius.
+Directions directionsAround(double x, double y, double radius, double square) {
+  const double middle = angleOf(x, y), half = radius / std::sqrt(square);
+  return {middle - half, middle + half};
+}
+
+/// A box lies between two of its corners, which depend on the direction of view.
+Directions directionsTo(const BoxTarget& t) {
   const double px = -(t.x * t.c + t.y * t.s), py = t.x * t.s - t.y * t.c;
-  const bool beside_x = std::abs(px) > f.hx + kTouching, beside_y = std::abs(py) > f.hy + kTouching;
-  if (!beside_x && !beside_y) return false;
-  const double sx = px < 0 ? -f.hx : f.hx, sy = py < 0 ? -f.hy : f.hy;
+  const bool beside_x = std::abs(px) > t.hx + kTouching, beside_y = std::abs(py) > t.hy + kTouching;
+  if (!beside_x && !beside_y) return {0, 0, true};
+  const double sx = px < 0 ? -t.hx : t.hx, sy = py < 0 ? -t.hy : t.hy;
   const double ax = sx, ay = beside_x ? -sy : sy, bx = beside_y ? -sx : sx, by = sy;
   const double from_x = t.x + t.c * ax - t.s * ay, from_y = t.y + t.s * ax + t.c * ay;
   const double to_x = t.x + t.c * bx - t.s * by, to_y = t.y + t.s * bx + t.c * by;
-  *from = angleOf(from_x, from_y);
-  *to = angleOf(to_x, to_y);
-  if (from_x * to_y - from_y * to_x < 0) std::swap(*from, *to);
-  if (*to < *from) *to += 2 * M_PI;
-  return true;
+  Directions out{angleOf(from_x, from_y), angleOf(to_x, to_y)};
+  if (from_x * to_y - from_y * to_x < 0) std::swap(out.from, out.to);
+  if (out.to < out.from) out.to += 2 * M_PI;
+  return out;
 }
 
-/// Determines the rays between two angles [rad], which may exceed ±π.
-void findRays(const RayFan& fan, double from, double to, RayTarget* target) {
+/// Determines the rays that may meet a target.
+void findRays(const RayFan& fan, const Directions& directions, RayTarget* target) {
+  if (directions.all) {
+    target->rays[target->parts++] = {0, fan.rays - 1};
+    return;
+  }
   const double span = fan.max_angle - fan.min_angle;
   const double per = span > 0 ? (fan.rays - 1) / span : 0;
   for (const double turn : {-2 * M_PI, 0.0, 2 * M_PI}) {
-    const double first = std::ceil((from + turn - kAngleError - fan.min_angle) * per);
-    const double last = std::floor((to + turn + kAngleError - fan.min_angle) * per);
+    const double begin = directions.from + turn - kAngleError;
+    const double end = directions.to + turn + kAngleError;
+    if (end < fan.min_angle || begin > fan.max_angle) continue;
+    const double first = std::ceil((begin - fan.min_angle) * per);
+    const double last = std::floor((end - fan.min_angle) * per);
     const RayInterval rays{static_cast<int>(std::max(first, 0.0)),
                            static_cast<int>(std::min(last, fan.rays - 1.0))};
     if (rays.first <= rays.last) target->rays[target->parts++] = rays;
   }
 }
 
-void findRays(const RayFan& fan, RayTarget* target) {
-  double from = 0, to = 0;
-  if (anglesTo(*target, &from, &to)) return findRays(fan, from, to, target);
-  target->rays[target->parts++] = {0, fan.rays - 1};
-}
-
-/// Casts rays by the slab test (Kay and Kajiya 1986) in the box's own axes, several at a time.
-__attribute__((target_clones("avx2", "default"))) void meetBox(const RayTarget& t, const double* c,
-                                                               const double* s, int rays,
-                                                               double* range, std::int64_t* model) {
-  const double tc = t.c, ts = t.s, hx = t.shape->hx, hy = t.shape->hy;
-  const double px = -(t.x * tc + t.y * ts), py = t.x * ts - t.y * tc;
-  const std::int64_t own = t.shape->model;
-#pragma GCC ivdep
-  for (int k = 0; k < rays; ++k) {
-    const double vx = c[k] * tc + s[k] * ts, vy = s[k] * tc - c[k] * ts;
-    const double ix = 1 / (vx == 0 ? 1e-300 : vx), iy = 1 / (vy == 0 ? 1e-300 : vy);
-    const double x0 = (-hx - px) * ix, x1 = (hx - px) * ix;
-    const double y0 = (-hy - py) * iy, y1 = (hy - py) * iy;
-    const double in_x = x0 < x1 ? x0 : x1, out_x = x0 < x1 ? x1 : x0;
-    const double in_y = y0 < y1 ? y0 : y1, out_y = y0 < y1 ? y1 : y0;
-    const double enter = in_x > in_y ? in_x : in_y, leave = out_x < out_y ? out_x : out_y;
-    const double met = enter >= 0 ? enter : leave;
-    const bool is_met = (enter <= leave) & (leave >= 0);
-    const bool is_first = (met < range[k]) | ((met == range[k]) & (own < model[k]));
-    const bool counts = is_met & is_first;
-    range[k] = counts ? met : range[k];
-    model[k] = counts ? own : model[k];
-  }
-}
-
-/// Does the same for any other footprint.
+/// Casts rays at any footprint but a box.
 void meetOther(const RayTarget& t, const Sensor& from, const RayFan& fan, const RayInterval& rays,
                FanHits* hits) {
-  const Footprint& f = *t.shape;
+  const Footprint& f = *t.other;
   const double radius = radiusOf(f);
   for (int k = rays.first; k <= rays.last; ++k) {
     const double c = fan.c[k], s = fan.s[k];
-    const double along = t.x * c + t.y * s, across = t.x * s - t.y * c;
+    const double along = t.box.x * c + t.box.y * s, across = t.box.x * s - t.box.y * c;
     RayHit hit{hits->range[k], static_cast<int>(hits->model[k])};
     if (std::abs(across) > radius || along < -radius || along - radius > hit.range) continue;
     const double met = isFixed(f)
                            ? castFootprint(f, from.x, from.y, from.z, from.c * c - from.s * s,
                                            from.s * c + from.c * s, hit.range)
-                           : castFootprint(f, t, 0, 0, from.z, c, s, hit.range);
+                           : castFootprint(f, t.pose(), 0, 0, from.z, c, s, hit.range);
     hit.meet(met, f.model);
     hits->range[k] = hit.range;
     hits->model[k] = hit.model;
   }
 }
 
-void meet(const RayTarget& target, const Sensor& from, const RayFan& fan, const RayInterval& rays,
-          FanHits* hits) {
-  if (target.shape->kind != Footprint::Kind::kBox) {
-    return meetOther(target, from, fan, rays, hits);
+/// The area of a fan's rays: a sector of a circle, cut off at a distance from the heading's line.
+class Sector {
+ public:
+  Sector(const RayFan& fan, const FanReach& reach) : range_(reach.range) {
+    const double widest = std::max(-fan.min_angle, fan.max_angle);
+    const bool sees_behind = widest > M_PI / 2;
+    back_ = sees_behind ? reach.range : 0;
+    aside_ = std::min(reach.range, reach.aside);
+    if (!sees_behind && widest >= 0) {
+      const double widest_aside = std::max(-fan.s.front(), fan.s.back());
+      aside_ = std::min(aside_, reach.range * widest_aside + kTouching);
+    }
+    is_convex_ = fan.max_angle - fan.min_angle <= M_PI;
+    right_ = {fan.c.front(), fan.s.front()};
+    left_ = {fan.c.back(), fan.s.back()};
   }
-  const int k = rays.first;
-  meetBox(target, &fan.c[k], &fan.s[k], rays.last - k + 1, &hits->range[k], &hits->model[k]);
-}
 
-/// The area of a fan's rays, as a box along the heading [m].
-struct Sector {
-  double back, ahead, aside;
-
-  Sector(const RayFan& fan, const FanReach& reach) {
-    const bool sees_behind = std::max(-fan.min_angle, fan.max_angle) > M_PI / 2;
-    back = sees_behind ? reach.range : 0;
-    ahead = reach.range;
-    aside = std::min(reach.range, reach.aside);
-  }
   /// Returns whether rays may meet a circle around (x, y).
   bool mayHold(double x, double y, double radius) const {
-    return x + radius >= -back && x - radius <= ahead && std::abs(y) - radius <= aside;
+    const double most = range_ + radius + kTouching, beside = radius + kTouching;
+    if (x + radius < -back_ || std::abs(y) - radius > aside_) return false;
+    if (x * x + y * y > most * most) return false;
+    return !is_convex_ ||
+           (right_.c * y - right_.s * x >= -beside && left_.s * x - left_.c * y >= -beside);
   }
+
+  /// Returns the box around it along the world's axes, at the laser's height.
+  AxisBox boxFrom(const Sensor& from) const {
+    const double middle = (range_ - back_) / 2, half = (range_ + back_) / 2;
+    const double x = from.x + from.c * middle, y = from.y + from.s * middle;
+    const double rounding = kTouching + kRounding * (std::abs(x) + std::abs(y));
+    const double wide = std::abs(from.c) * half + std::abs(from.s) * aside_ + rounding;
+    const double high = std::abs(from.s) * half + std::abs(from.c) * aside_ + rounding;
+    const auto z = static_cast<float>(from.z);
+    return {static_cast<float>(x - wide),
+            static_cast<float>(x + wide),
+            static_cast<float>(y - high),
+            static_cast<float>(y + high),
+            z,
+            z};
+  }
+
+ private:
+  struct Direction {
+    double c, s;
+  };
+  double range_, back_, aside_;
+  bool is_convex_;  // if so, it lies between its first ray's line and its last one's
+  Direction right_, left_;
 };
 
 /// Returns a pose relative to the laser.
@@ -162,72 +179,143 @@ FlatPose seenFrom(const Sensor& from, double x, double y, double c, double s) {
           from.c * s - from.s * c};
 }
 
-/// Casts the rays that may meet targets up to their reach, or up to the nearest hit so far.
-template <typename Targets>
-void begin(const RayFan& fan, const FanReach& reach, const Targets& targets, FanHits* hits) {
-  hits->first = fan.rays;
-  hits->last = -1;
-  for (const RayTarget& target : targets) {
-    for (int k = 0; k < target.parts; ++k) {
-      hits->first = std::min(hits->first, target.rays[k].first);
-      hits->last = std::max(hits->last, target.rays[k].last);
+/// What a fan's rays may meet.
+class RayTargets {
+ public:
+  RayTargets(const RayFan& fan, const Sensor& from, const FanReach& reach)
+      : fan_(fan), from_(from), reach_(reach), sector_(fan, reach) {}
+
+  AxisBox area() const { return sector_.boxFrom(from_); }
+  bool mayMeet(const FlatPose& middle, double radius) const {
+    return sector_.mayHold(middle.x, middle.y, radius);
+  }
+
+  /// Adds what a robot's outline hides, if rays meet it, unless the laser is near or inside: then
+  /// returns false. `middle`: the robot relative to the laser; poseOf(outline): the outline.
+  template <typename Outline, typename PoseOf>
+  bool addAround(const FlatPose& middle, const Outline& outline, PoseOf poseOf) {
+    const double radius = outline.radius;
+    const double square = middle.x * middle.x + middle.y * middle.y - radius * radius;
+    if (!outline.isAt(from_.z) || !(square > radius * radius)) return false;
+    RayTarget& target = targets_.emplace_back();
+    findRays(fan_, directionsAround(middle.x, middle.y, radius, square), &target);
+    if (target.parts == 0) {
+      targets_.pop_back();
+      return true;
+    }
+    const FlatPose at = poseOf(outline);
+    target.box = {at.x, at.y, at.c, at.s, outline.hx, outline.hy, outline.model};
+    return true;
+  }
+
+  /// Adds a footprint that has this pose relative to the laser.
+  void add(const Footprint& f, const FlatPose& pose) {
+    const bool is_at_height = f.z_min <= from_.z && from_.z <= f.z_max;
+    const double radius = radiusOf(f);
+    if (!is_at_height || !mayMeet(pose, radius)) return;
+    RayTarget& target = targets_.emplace_back();
+    target.box = {pose.x, pose.y, pose.c, pose.s, f.hx, f.hy, f.model};
+    if (f.kind != Footprint::Kind::kBox) target.other = &f;
+    findRays(fan_, target.other ? directionsTo(pose.x, pose.y, radius) : directionsTo(target.box),
+             &target);
+    if (target.parts == 0) targets_.pop_back();
+  }
+
+  void cast(FanHits* hits) const {
+    begin(hits);
+    static const CastAtBox cast_at_box = castAtBox();
+    for (const RayTarget& target : targets_) {
+      for (int part = 0; part < target.parts; ++part) {
+        const RayInterval& rays = target.rays[part];
+        const int k = rays.first;
+        if (target.other) {
+          meetOther(target, from_, fan_, rays, hits);
+        } else {
+          cast_at_box(target.box, {&fan_.c[k], &fan_.s[k], rays.last - k + 1, &hits->range[k],
+                                   &hits->model[k]});
+        }
+      }
     }
   }
-  hits->range.resize(fan.rays);
-  hits->model.resize(fan.rays);
-  for (int ray = hits->first; ray <= hits->last; ++ray) {
-    hits->range[ray] = std::min(reach.range, reach.aside * fan.per_aside[ray]);
-    hits->model[ray] = -1;
+
+ private:
+  /// Rays that may meet targets have no hit yet, up to their reach.
+  void begin(FanHits* hits) const {
+    hits->first = fan_.rays;
+    hits->last = -1;
+    for (const RayTarget& target : targets_) {
+      for (int k = 0; k < target.parts; ++k) {
+        hits->first = std::min(hits->first, target.rays[k].first);
+        hits->last = std::max(hits->last, target.rays[k].last);
+      }
+    }
+    hits->range.resize(fan_.rays);
+    hits->model.resize(fan_.rays);
+    for (int ray = hits->first; ray <= hits->last; ++ray) {
+      hits->range[ray] = std::min(reach_.range, reach_.aside * fan_.per_aside[ray]);
+      hits->model[ray] = -1;
+    }
   }
-}
+
+  const RayFan& fan_;
+  const Sensor& from_;
+  const FanReach& reach_;
+  const Sector sector_;
+  boost::container::small_vector<RayTarget, 32> targets_;
+};
 
 }  // namespace
 
 void Obstacles::cast(const RayFan& fan, const Sensor& from, const FanReach& reach, int group,
                      FanHits* hits) const {
-  const Sector sector(fan, reach);
-  boost::container::small_vector<RayTarget, 32> targets;
-  const auto isAtHeight = [&](const Footprint& f) {
-    return f.z_min <= from.z && from.z <= f.z_max;
-  };
-  const auto add = [&](const Footprint& f, const FlatPose& pose) {
-    if (!sector.mayHold(pose.x, pose.y, radiusOf(f))) return;
-    RayTarget target;
-    static_cast<FlatPose&>(target) = pose;
-    target.shape = &f;
-    findRays(fan, &target);
-    if (target.parts > 0) targets.push_back(target);
-  };
+  RayTargets targets(fan, from, reach);
   const auto addMover = [&](int robot) {
     const double x = fleet_.x[robot], y = fleet_.y[robot];
     const FlatPose middle = seenFrom(from, x, y, 1, 0);
-    if (!sector.mayHold(middle.x, middle.y, radius_[robot])) return;
-    const double c = std::cos(fleet_.yaw[robot]), s = std::sin(fleet_.yaw[robot]);
-    for (const Footprint& f : movers_[robot].local) {
-      if (!isAtHeight(f)) continue;
-      add(f, seenFrom(from, x + c * f.x - s * f.y, y + s * f.x + c * f.y, c * f.c - s * f.s,
-                      s * f.c + c * f.s));
-    }
+    if (!targets.mayMeet(middle, radius_[robot])) return;
+    // Few robots have rays that meet them: only their headings are needed.
+    double c = 2, s = 0;
+    const auto poseOf = [&](const auto& f) {
+      if (c > 1) {
+        c = std::cos(fleet_.yaw[robot]);
+        s = std::sin(fleet_.yaw[robot]);
+      }
+      return seenFrom(from, x + c * f.x - s * f.y, y + s * f.x + c * f.y, c * f.c - s * f.s,
+                      s * f.c + c * f.s);
+    };
+    if (targets.addAround(middle, silhouettes_[robot], poseOf)) return;
+    for (const Footprint& f : movers_[robot].local) targets.add(f, poseOf(f));
   };
-  // The area along the world's axes.
-  const double middle = (sector.ahead - sector.back) / 2, half = (sector.ahead + sector.back) / 2;
-  const double x = from.x + from.c * middle, y = from.y + from.s * middle;
-  const double wide = std::abs(from.c) * half + std::abs(from.s) * sector.aside;
-  const double high = std::abs(from.s) * half + std::abs(from.c) * sector.aside;
-  const CellRange cells = range({x - wide, x + wide, y - high, y + high});
-  anyHandle(cells, cells, [&](int handle) {
+  const auto add = [&](int handle) {
     if (handle < 0) {
       if (~handle != group) addMover(~handle);
-    } else if (const Footprint& f = entries_[handle].footprint;
-               isAtHeight(f) && (group < 0 || f.group != group)) {
-      add(f, seenFrom(from, f.x, f.y, f.c, f.s));
+    } else if (const Footprint& f = entries_[handle].footprint; group < 0 || f.group != group) {
+      targets.add(f, seenFrom(from, f.x, f.y, f.c, f.s));
     }
     return false;
-  });
-  begin(fan, reach, targets, hits);
-  for (const RayTarget& target : targets) {
-    for (int k = 0; k < target.parts; ++k) meet(target, from, fan, target.rays[k], hits);
+  };
+  const AxisBox area = targets.area();
+  // The few cells of a look along the robot's lane are quicker to read than the levels of boxes.
+  const CellRange cells = range({area.min_x, area.max_x, area.min_y, area.max_y});
+  if ((cells.x1 - cells.x0 + 1) * (cells.y1 - cells.y0 + 1) <= kFewCells) {
+    anyHandle(cells, cells, add);
+  } else {
+    LooseGrid::Handles handles;
+    boxes_.find(area, &handles);
+    // Their data come from all over the memory: asked for together, they arrive together.
+    for (const int handle : handles) prefetch(handle);
+    for (const int handle : handles) add(handle);
   }
+  targets.cast(hits);
+}
+
+void Obstacles::prefetch(int handle) const {
+  if (handle >= 0) return __builtin_prefetch(&entries_[handle].footprint);
+  const int robot = ~handle;
+  for (const auto* column : {&fleet_.x, &fleet_.y, &fleet_.yaw}) {
+    __builtin_prefetch(&(*column)[robot]);
+  }
+  __builtin_prefetch(&silhouettes_[robot]);
 }
 
 }  // namespace kiva

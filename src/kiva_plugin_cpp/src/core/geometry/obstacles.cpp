@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/geometry/footprint_ray.h"
 #include "core/geometry/infinity.h"
@@ -18,6 +19,7 @@ constexpr long kMostCellsEach = 16384;  // larger entries are checked by every q
 // size.
 constexpr double kSpotMargin = 0.001;  // [m]
 constexpr double kFloatMargin = 2.4e-7;
+constexpr double kHidden = 0.001;  // least depth of what a box hides [m]
 
 double halfX(const Footprint& f) {
   return f.kind == Footprint::Kind::kBox ? std::abs(f.c) * f.hx + std::abs(f.s) * f.hy : f.hx;
@@ -26,6 +28,38 @@ double halfY(const Footprint& f) {
   return f.kind == Footprint::Kind::kBox        ? std::abs(f.s) * f.hx + std::abs(f.c) * f.hy
          : f.kind == Footprint::Kind::kTriangle ? f.hy
                                                 : f.hx;
+}
+
+/// Returns a box along the world's axes in single precision.
+AxisBox rounded(double min_x, double max_x, double min_y, double max_y, double min_z,
+                double max_z) {
+  return {static_cast<float>(min_x), static_cast<float>(max_x), static_cast<float>(min_y),
+          static_cast<float>(max_y), static_cast<float>(min_z), static_cast<float>(max_z)};
+}
+
+/// Returns a number in single precision that is larger.
+float above(double number) {
+  return std::nextafter(static_cast<float>(number), std::numeric_limits<float>::infinity());
+}
+
+/// Returns whether the other footprint lies within a box that moves with it, far enough from its
+/// sides that rounding does not matter.
+bool hides(const Footprint& box, const Footprint& other) {
+  if (isFixed(other)) return false;
+  const double dx = other.x - box.x, dy = other.y - box.y;
+  const double reach = radiusOf(other) + kHidden;
+  return std::abs(dx * box.c + dy * box.s) + reach <= box.hx &&
+         std::abs(dy * box.c - dx * box.s) + reach <= box.hy;
+}
+
+/// Restricts a range of heights to those that the other footprint does not have.
+void keepOff(const Footprint& other, double* low, double* high) {
+  if (other.z_max < *low || other.z_min > *high) return;
+  if (*high - other.z_max > other.z_min - *low) {
+    *low = other.z_max;
+  } else {
+    *high = other.z_min;
+  }
 }
 
 /// Returns the separation of two boxes along the two axes of `a`: the larger of both gaps.
@@ -63,6 +97,8 @@ void Obstacles::clear() {
   movers_.clear();
   mover_corner_.clear();
   radius_.clear();
+  silhouettes_.clear();
+  boxes_.clear();
   free_.clear();
   cells_.clear();
   everywhere_.clear();
@@ -98,6 +134,7 @@ void Obstacles::update(int handle, const Footprint& footprint) {
 
 void Obstacles::remove(int handle) {
   unlink(handle, entries_[handle].place);
+  boxes_.remove(handle);
   entries_[handle] = Entry();
   free_.push_back(handle);
 }
@@ -107,6 +144,7 @@ void Obstacles::setMover(int robot, std::vector<Footprint> local) {
     movers_.resize(robot + 1);
     mover_corner_.resize(robot + 1);
     radius_.resize(robot + 1);
+    silhouettes_.resize(robot + 1);
   }
   radius_[robot] = 0;
   for (const Footprint& f : local) {
@@ -116,6 +154,7 @@ void Obstacles::setMover(int robot, std::vector<Footprint> local) {
   mover.world = local;
   mover.world_x = kInfinity;  // not computed yet
   mover.local = std::move(local);
+  silhouettes_[robot] = Silhouette(mover.local, radius_[robot]);
   linkMover(robot);
 }
 
@@ -127,19 +166,25 @@ void Obstacles::raise(int robot, int model, double by) {
       footprint.z_max += by;
     }
   }
+  silhouettes_[robot] = Silhouette(movers_[robot].local, radius_[robot]);
+  putMover(robot);
 }
 
 void Obstacles::removeMover(int robot) {
   unlink(~robot, movers_[robot].place);
+  boxes_.remove(~robot);
   const int last = static_cast<int>(movers_.size()) - 1;
   if (robot != last) {
     unlink(~last, movers_[last].place);
+    boxes_.remove(~last);
     movers_[robot] = std::move(movers_[last]);
     radius_[robot] = radius_[last];
+    silhouettes_[robot] = silhouettes_[last];
   }
   movers_.pop_back();
   mover_corner_.pop_back();
   radius_.pop_back();
+  silhouettes_.pop_back();
   if (robot != last) linkMover(robot);
 }
 
@@ -168,6 +213,41 @@ void Obstacles::linkMover(int robot) {
   unlink(~robot, mover.place);
   cover(boxOfMover(robot));
   link(~robot, mover.place, boxOfMover(robot));
+  putMover(robot);
+}
+
+/// Tells scans where a mover is, and how high it reaches.
+void Obstacles::putMover(int robot) {
+  double z_min = kInfinity, z_max = -kInfinity;
+  for (const Footprint& f : movers_[robot].local) {
+    z_min = std::min(z_min, f.z_min);
+    z_max = std::max(z_max, f.z_max);
+  }
+  const Box b = boxOfMover(robot);
+  boxes_.put(~robot, rounded(b.min_x, b.max_x, b.min_y, b.max_y, z_min, z_max));
+}
+
+/// The box that hides all others at the most heights.
+Obstacles::Silhouette::Silhouette(const std::vector<Footprint>& local, double of_mover)
+    : radius(above(of_mover)) {
+  for (const Footprint& box : local) {
+    if (box.kind != Footprint::Kind::kBox) continue;
+    double low = box.z_min, high = box.z_max;
+    for (const Footprint& other : local) {
+      if (&other != &box && !hides(box, other)) keepOff(other, &low, &high);
+    }
+    const float lowest = above(low), highest = -above(-high);
+    if (!(highest - lowest > z_max - z_min)) continue;
+    x = box.x;
+    y = box.y;
+    c = box.c;
+    s = box.s;
+    hx = box.hx;
+    hy = box.hy;
+    z_min = lowest;
+    z_max = highest;
+    model = box.model;
+  }
 }
 
 Obstacles::CellRange Obstacles::range(double min_x, double max_x, double min_y,
@@ -202,8 +282,10 @@ void Obstacles::setFootprint(int handle, const Footprint& f) {
   Spot& spot = spots_[handle];
   spot.x = static_cast<float>(f.x);
   spot.y = static_cast<float>(f.y);
-  const double rounded = kSpotMargin + kFloatMargin * (std::abs(f.x) + std::abs(f.y));
-  spot.radius = static_cast<float>(radiusOf(f) + rounded);
+  const double margin = kSpotMargin + kFloatMargin * (std::abs(f.x) + std::abs(f.y));
+  spot.radius = static_cast<float>(radiusOf(f) + margin);
+  const Box b = boxOf(f);
+  boxes_.put(handle, rounded(b.min_x, b.max_x, b.min_y, b.max_y, f.z_min, f.z_max));
 }
 
 void Obstacles::link(int handle, Place& place, const Box& box) {

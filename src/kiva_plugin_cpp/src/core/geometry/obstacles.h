@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/geometry/footprint.h"
+#include "core/geometry/loose_grid.h"
 #include "core/geometry/ray_fan.h"
 #include "kiva_plugin_cpp/fleet.h"
 
@@ -168,6 +169,18 @@ class Obstacles {
       return dx * dx + dy * dy < most * most;
     }
   };
+  /// What level rays meet of most movers, in one cache line: the box that hides all other
+  /// footprints from rays at these heights that come from outside of it. In the robot's frame [m].
+  struct alignas(64) Silhouette {
+    double x = 0, y = 0, c = 1, s = 0, hx = 0, hy = 0;
+    float z_min = 1, z_max = 0;
+    float radius = 0;  // of the circle around the robot that contains its mover
+    int model = -1;
+
+    Silhouette() = default;
+    Silhouette(const std::vector<Footprint>& local, double radius);
+    bool isAt(double z) const { return z_min <= z && z <= z_max; }
+  };
   struct Mover {
     std::vector<Footprint> local;  // in the robot's frame
     Place place;
@@ -207,6 +220,8 @@ class Obstacles {
   void setFootprint(int handle, const Footprint& footprint);
   void unlink(int handle, Place& place);
   void linkMover(int robot);
+  void putMover(int robot);
+  void prefetch(int handle) const;
   void cover(const Box& box);
   void castMover(int robot, double x, double y, double z, double dx, double dy, RayHit* hit) const;
 
@@ -215,7 +230,9 @@ class Obstacles {
   std::vector<Spot> spots_;  // by entry
   std::vector<Mover> movers_;
   std::vector<Corner> mover_corner_;
-  std::vector<double> radius_;  // by mover [m]; most rays need no more
+  std::vector<double> radius_;           // by mover [m]; most rays need no more
+  std::vector<Silhouette> silhouettes_;  // by mover
+  LooseGrid boxes_;                      // of entries and movers, for scans
   std::vector<int> free_;
   // Handles of each cell; ~robot for a mover. Movers come first, so that a query for distant movers
   // skips the rest. Few handles are stored inline: reading them is most of a ray's time.

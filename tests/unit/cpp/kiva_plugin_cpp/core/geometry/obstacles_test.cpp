@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Queries around a point: each obstacle that is near enough is visited once, however models and
-// robots were added, moved and removed.
+// robots were added, moved and removed. Scans: a fan's rays meet what each ray by itself meets.
 #include "core/geometry/obstacles.h"
 
 #include <gtest/gtest.h>
@@ -11,19 +11,48 @@
 #include <random>
 #include <vector>
 
+#include "core/sensing/scans.h"
+
 namespace kiva {
 namespace {
 
 constexpr double kEdge = 12;       // of the floor [m]
 constexpr double kMargin = 0.005;  // by which more may be asked for [m]
 constexpr int kThings = 150, kTurns = 20, kLooks = 25;
+constexpr double kReach = 5;     // of a scan [m]
+constexpr double kGraze = 1e-5;  // [rad], by which a ray that only just meets a corner may miss it
+constexpr double kError = 1e-3;  // [m] in a surface's distance, for a ray turned by that
+
+Footprint box(double x, double y, double hx = 0.3, double hy = 0.2) {
+  Footprint out;
+  out.x = x;
+  out.y = y;
+  out.hx = hx;
+  out.hy = hy;
+  out.z_min = -1;
+  out.z_max = 1;
+  return out;
+}
+
+/// A robot that is seen as two boxes, and one whose wheel and plate are hidden in its body.
+const std::vector<Footprint> kTwoBoxes = {box(0, 0), box(0.2, 0.1)};
+std::vector<Footprint> bodyWithParts() {
+  Footprint wheel = circleAt(0.1, 0, 0.05), plate = circleAt(0, 0, 0.15);
+  wheel.z_min = -2;
+  plate.z_min = 0.5;
+  wheel.z_max = plate.z_max = 2;
+  return {wheel, box(0, 0), plate};
+}
 
 class BusyFloor {
  public:
-  BusyFloor(int robots, unsigned seed) : obstacles_(fleet_), random_(seed) {
+  BusyFloor(int robots, unsigned seed, const std::vector<Footprint>& parts = kTwoBoxes)
+      : obstacles_(fleet_), random_(seed) {
     for (int i = 0; i < robots; ++i) {
       for (auto* column : {&fleet_.x, &fleet_.y, &fleet_.yaw}) column->push_back(within(kEdge));
-      obstacles_.setMover(i, {box(0, 0), box(0.2, 0.1)});
+      std::vector<Footprint> own = parts;
+      for (Footprint& part : own) part.model = i;
+      obstacles_.setMover(i, own);
     }
     for (int i = 0; i < kThings; ++i) things_.push_back(obstacles_.add(anywhere()));
   }
@@ -67,22 +96,45 @@ class BusyFloor {
     }
   }
 
+  /// A scan of each robot, and of a laser that belongs to none.
+  void scan(const RayFan& fan, double z) {
+    for (int robot = -1; robot < static_cast<int>(fleet_.x.size()); ++robot) {
+      const double yaw = robot < 0 ? within(6) : fleet_.yaw[robot];
+      const double x = robot < 0 ? within(kEdge) : fleet_.x[robot];
+      const double y = robot < 0 ? within(kEdge) : fleet_.y[robot];
+      const Sensor from{x, y, z, std::cos(yaw), std::sin(yaw)};
+      FanHits hits;
+      obstacles_.cast(fan, from, {kReach, INFINITY}, robot, &hits);
+      for (int ray = 0; ray < fan.rays; ++ray) {
+        const double angle = yaw + std::atan2(fan.s[ray], fan.c[ray]);
+        const bool is_hit = ray >= hits.first && ray <= hits.last && hits.model[ray] >= 0;
+        const double range = is_hit ? hits.range[ray] : INFINITY;
+        EXPECT_TRUE(isRight(range, from, angle, robot)) << "robot " << robot << ", ray " << ray;
+        met_ += is_hit;
+      }
+    }
+  }
+  int met() const { return met_; }
+
  private:
+  /// Returns whether a single ray meets something at that range, or one beside it does.
+  bool isRight(double range, const Sensor& from, double angle, int robot) const {
+    for (const double aside : {0.0, -kGraze, kGraze}) {
+      const double c = std::cos(angle + aside), s = std::sin(angle + aside);
+      const double other = obstacles_.cast(from.x, from.y, from.z, c, s, kReach, robot).range;
+      if (range == other || std::abs(range - other) < kError) return true;
+    }
+    return false;
+  }
+
   double within(double most) { return std::uniform_real_distribution<double>(0, most)(random_); }
 
-  static Footprint box(double x, double y) {
-    Footprint out;
-    out.x = x;
-    out.y = y;
-    out.hx = 0.3;
-    out.hy = 0.2;
-    return out;
-  }
   static double radius() { return std::hypot(0.2, 0.1) + std::hypot(0.3, 0.2); }
 
   Footprint anywhere() {
     Footprint out = box(within(kEdge), within(kEdge));
     out.hx = 0.05 + within(1);
+    out.model = 1000;
     return out;
   }
   static double distance(const Footprint& f, double x, double y) {
@@ -96,7 +148,19 @@ class BusyFloor {
   Obstacles obstacles_;
   std::mt19937 random_;
   std::vector<int> things_;
+  int met_ = 0;
 };
+
+/// Scans of fans of all kinds, at a height at which a body hides the rest, and one at which not.
+void scanAround(int robots, const std::vector<Footprint>& parts) {
+  const RayFan fans[] = {fanOf(20, -M_PI / 2, M_PI / 2), fanOf(31, -1, 1),  fanOf(1, 0.3, 0.3),
+                         fanOf(45, -M_PI, M_PI),         fanOf(9, -3, 2.5), fanOf(7, 0.5, 1.2)};
+  BusyFloor floor(robots, 5, parts);
+  for (int turn = 0; turn < kTurns; ++turn, floor.turn()) {
+    for (const RayFan& fan : fans) floor.scan(fan, turn % 2 ? 0.2 : 0.7);
+  }
+  EXPECT_GT(floor.met(), 100 * robots);
+}
 
 void lookAround(int robots) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
@@ -109,6 +173,9 @@ void lookAround(int robots) {
 
 TEST(Obstacles, AskForWhatIsNearAmongFewRobots) { lookAround(8); }
 TEST(Obstacles, AskForWhatIsNearAmongMany) { lookAround(80); }
+TEST(Obstacles, ScanLikeSingleRays) { scanAround(8, kTwoBoxes); }
+TEST(Obstacles, ScanBodiesThatHideTheirParts) { scanAround(8, bodyWithParts()); }
+TEST(Obstacles, ScanAmongManyThatOverlap) { scanAround(40, bodyWithParts()); }
 
 }  // namespace
 }  // namespace kiva
