@@ -2,7 +2,6 @@
 """Reads instances (.xinst) and layout configurations (.xlayo) of RAWSim-O as a Site."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 from xml.etree.ElementTree import Element
 
@@ -12,6 +11,7 @@ from warehouse_layout.convert.rawsim.instance import read_floor
 from warehouse_layout.convert.rawsim.xml_fields import InstanceError, number_of
 from warehouse_operations.goods.kinds import Goods, Kinds
 from warehouse_operations.runs import rawsim_layout
+from warehouse_operations.runs.rawsim_bots import USUAL, kinematics
 from warehouse_operations.stock.settings import Settings
 from warehouse_operations.stock.site import Site
 
@@ -59,21 +59,7 @@ def _times(path: PathName, element: Element) -> dict[str, Any]:
 def _kinematics(path: PathName, bots: Sequence[Element]) -> Kinematics:
     if not bots:
         raise InstanceError(f"{path}: there is no Bot")
-    names = ("MaxVelocity", "MaxAcceleration", "TurnSpeed", "PodTransferTime")
-    defaults = (1.5, 1.0, 2.5, 2.2)
-    kinds = {
-        tuple(number_of(path, bot, name, value) for name, value in zip(names, defaults))
-        for bot in bots
-    }
+    kinds = {tuple(number_of(path, bot, *usual) for usual in USUAL.items()) for bot in bots}
     if len(kinds) > 1:
         raise InstanceError(f"{path}: bots of {len(kinds)} kinds; all alike was expected")
-    speed, acceleration, full_turn, lift = kinds.pop()
-    if min(speed, acceleration) <= 0 or min(full_turn, lift) < 0:
-        raise InstanceError(f"{path}: MaxVelocity and MaxAcceleration above 0 were expected")
-    return replace(
-        Kinematics(),
-        speed=speed,
-        acceleration=acceleration,
-        quarter_turn=full_turn / 4,
-        lift=lift,
-    )
+    return kinematics(path, *kinds.pop())

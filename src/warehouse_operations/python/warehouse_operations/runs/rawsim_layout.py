@@ -1,17 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads layout configurations (.xlayo) of RAWSim-O as a Site whose pods are full by weight."""
 
-from dataclasses import replace
 from pathlib import Path
-from xml.etree.ElementTree import Element
 
-from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_layout.convert.common import PathName
 from warehouse_layout.convert.rawsim import xlayo
-from warehouse_layout.convert.rawsim.xml_fields import InstanceError, read_root, text_of
+from warehouse_layout.convert.rawsim.xml_fields import read_root, text_of
 from warehouse_layout.place import placement
 from warehouse_operations.goods.kinds import Goods, Kinds
 from warehouse_operations.runs import layout_site
+from warehouse_operations.runs.rawsim_bots import USUAL, kinematics
 from warehouse_operations.stock.settings import Settings
 from warehouse_operations.stock.site import Site
 
@@ -44,23 +42,7 @@ def read(path: PathName) -> Site:
         site.units,
         goods.items(),
         site.name,
-        _kinematics(path, root),
+        kinematics(path, *(text_of(path, root, *usual) for usual in USUAL.items())),
         Settings(by_station=by_station),
         goods=goods,
-    )
-
-
-def _kinematics(path: PathName, root: Element) -> Kinematics:
-    names = {"MaxVelocity": 1.5, "MaxAcceleration": 1.0, "TurnSpeed": 2.5, "PodTransferTime": 2.2}
-    speed, acceleration, full_turn, lift = (
-        text_of(path, root, name, usual) for name, usual in names.items()
-    )
-    if min(speed, acceleration) <= 0:
-        raise InstanceError(f"{path}: MaxVelocity and MaxAcceleration above 0 were expected")
-    return replace(
-        Kinematics(),
-        speed=speed,
-        acceleration=acceleration,
-        quarter_turn=full_turn / 4,
-        lift=lift,
     )

@@ -5,10 +5,10 @@ vehicles, or our master's code with one thing wrong."""
 from __future__ import annotations
 
 import contextlib
-import json
 from dataclasses import dataclass, field, replace
 from unittest import mock
 
+from damage import of_json
 from paper_master import runner_for
 
 from warehouse_vda5050.conform.master.cases import cases_of
@@ -86,15 +86,7 @@ def json_of(name, rule, kind="/order"):
     memory) changes `value`, and returns False for a message that is lost."""
 
     def add(function):
-        def damage(sent, memory):
-            if not sent.topic.endswith(kind):
-                return sent
-            value = json.loads(sent.payload)
-            if function(value, memory) is False:
-                return None
-            return sent._replace(payload=json.dumps(value).encode())
-
-        MUTANTS[name] = Mutant(name, rule, damage)
+        MUTANTS[name] = Mutant(name, rule, of_json(function, kind))
         return function
 
     return add

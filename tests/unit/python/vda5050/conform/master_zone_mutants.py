@@ -2,9 +2,9 @@
 """Masters of 3.0.0 that break one rule of zones or of planned paths each: messages damaged on their
 way, or our master's code with one thing wrong."""
 
-import json
 from dataclasses import replace
 
+from damage import of_json
 from master_mutants import Mutant
 
 from warehouse_vda5050.master import zone_desk
@@ -28,15 +28,7 @@ def json_of(name, rule, kind="/zoneSet"):
     memory) changes `value`, and returns False for a message that is lost."""
 
     def add(function):
-        def damage(sent, memory):
-            if not sent.topic.endswith(kind):
-                return sent
-            value = json.loads(sent.payload)
-            if function(value, memory) is False:
-                return None
-            return sent._replace(payload=json.dumps(value).encode())
-
-        MUTANTS[name] = Mutant(name, rule, damage)
+        MUTANTS[name] = Mutant(name, rule, of_json(function, kind))
         return function
 
     return add

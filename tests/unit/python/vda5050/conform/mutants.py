@@ -9,6 +9,7 @@ import json
 from dataclasses import dataclass, field, replace
 from unittest import mock
 
+from damage import of_json
 from paper_vehicle import PaperWire, runner_for
 
 from warehouse_vda5050.conform.cases import cases_of
@@ -97,15 +98,8 @@ def json_of(name, rule, *kinds):
     memory) changes `value`, and returns False for a message that is lost."""
 
     def add(function):
-        def damage(sent, memory):
-            if not any(sent.topic.endswith(f"/{kind.value}") for kind in kinds):
-                return sent
-            value = json.loads(sent.payload)
-            if function(value, memory) is False:
-                return None
-            return sent._replace(payload=json.dumps(value).encode())
-
-        MUTANTS[name] = Mutant(name, rule, damage)
+        endings = (f"/{kind.value}" for kind in kinds)
+        MUTANTS[name] = Mutant(name, rule, of_json(function, *endings))
         return function
 
     return add
