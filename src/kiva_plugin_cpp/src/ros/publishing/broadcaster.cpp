@@ -18,14 +18,13 @@ constexpr int kEventQueue = 1000000;
 constexpr std::size_t kCrowd = 10;  // messages at once
 constexpr auto kBatch = std::chrono::milliseconds(2);
 
-/// Topics are latched if new subscribers need their message while time stands still.
-constexpr bool kLatched = true;
-
 std_msgs::String hashMessage(const std::string& hash) {
   std_msgs::String out;
   out.data = hash;
   return out;
 }
+
+void uncounted(int) {}
 
 }  // namespace
 
@@ -35,14 +34,12 @@ Broadcaster::Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node,
     : snapshots_(snapshots),
       robots_(root, subscribers),
       transforms_(root, subscribers, locates_steered),
-      clock_(root, "clock", kStreamQueue, [](int) {}),
+      clock_(root, "clock", kStreamQueue, uncounted),
       events_(root.advertise<warehouse_msgs::Event>("warehouse/events", kEventQueue)),
-      collisions_(root.advertise<warehouse_msgs::Collision>("warehouse/collisions", kEventQueue)),
-      objects_(root.advertise<warehouse_msgs::WarehouseObjects>("warehouse/objects", kStreamQueue,
-                                                                kLatched)),
-      units_(root.advertise<warehouse_msgs::UnitStates>("warehouse/unit_states", kStreamQueue,
-                                                        kLatched)),
-      people_(root.advertise<warehouse_msgs::People>("warehouse/people", kStreamQueue, kLatched)) {
+      objects_(root, "warehouse/objects", kStreamQueue, uncounted),
+      units_(root, "warehouse/unit_states", kStreamQueue, uncounted),
+      people_(root, "warehouse/people", kStreamQueue, uncounted),
+      collisions_(root.advertise<warehouse_msgs::Collision>("warehouse/collisions", kEventQueue)) {
   fleet_ = advertiseCounted<warehouse_msgs::FleetState>(
       root, "warehouse/fleet", kStreamQueue,
       [&subscribers](int change) { subscribers.count(SubscriberCounts::Topic::kFleet, change); });

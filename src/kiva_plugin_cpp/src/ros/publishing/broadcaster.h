@@ -5,6 +5,9 @@
 #include <gazebo_msgs/ModelStates.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
+#include <warehouse_msgs/People.h>
+#include <warehouse_msgs/UnitStates.h>
+#include <warehouse_msgs/WarehouseObjects.h>
 
 #include <memory>
 #include <string>
@@ -45,7 +48,11 @@ class Broadcaster {
   PollThread poll_thread_;
   LatchedPublisher<rosgraph_msgs::Clock> clock_;
   DirectPublisher events_;
-  ros::Publisher collisions_, fleet_, objects_, units_, people_, hash_;
+  // With roscpp's own latch a newcomer can miss the message that is published as it connects.
+  LatchedPublisher<warehouse_msgs::WarehouseObjects> objects_;
+  LatchedPublisher<warehouse_msgs::UnitStates> units_;
+  LatchedPublisher<warehouse_msgs::People> people_;
+  ros::Publisher collisions_, fleet_, hash_;
   ros::Publisher model_states_, gazebo_model_states_, link_states_;
   // Shared, since names seldom change.
   std::shared_ptr<const std::vector<std::string>> names_,

@@ -130,6 +130,9 @@ export class OrderList {
     this.box.scrollTop = 0;
     Object.assign(this, { total, first: 0, rows: orders });
     this.newest = Math.max(this.newest ?? 0, ...orders.map(({ order_id: id }) => id));
+    // Of orders that came while the answer was on its way, it has some already.
+    for (const { order_id: id } of orders) this.news.delete(id);
+    this.shift = this.isWhole ? this.news.size : 0;
   }
 
   /** Rows from `offset` on in the server's list: a known row among them gives their place here. */
