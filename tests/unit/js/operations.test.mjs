@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page computes of the work: rates, lateness, where a SKU is, colours of the heat.
+// What the page computes of the work: rates, lateness, where a SKU is, colours of the heat, new orders.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -15,6 +15,9 @@ import { pointsOf, ratesOf, smoothed } from '../../../src/warehouse_viewer/web/j
 import { before, clock, lasting } from '../../../src/warehouse_viewer/web/js/base/time.js';
 import { piecesByUnit, skuIn } from '../../../src/warehouse_viewer/web/js/layers/where.js';
 import { countedWork } from '../../../src/warehouse_viewer/web/js/base/words.js';
+
+globalThis.matchMedia ??= () => ({ matches: false });
+const { OrderList } = await import('../../../src/warehouse_viewer/web/js/operations/order_list.js');
 
 test('rates are of the time that an interval really had', () => {
   const told = { interval: 60, begin: 90, end: 200 };
@@ -117,4 +120,21 @@ test('robots are counted by what they do at a glance, what needs a person first;
     [['needs help', 'needs-help', 1], ['waiting', 'waiting', 4], ['moving', 'moving', 5], ['resting', 'resting', 2]]);
   assert.deepEqual(sharesOf({}), []);
   assert.equal(countedWork({ fetching: 2, ready: 1, bringing: 0, waiting: 3, idle: 1 }), '2 fetching, 1 ready beneath a unit, 3 at a station, 1 without work');
+});
+
+/** A list without a page that is being read again while these orders come. */
+function reading(news, filter = '') {
+  const list = Object.create(OrderList.prototype, { text: { value: '' } });
+  return Object.assign(list, { filter, box: {}, newest: 2, news: new Set(news), shift: news.length });
+}
+
+const orders = (...numbers) => numbers.map((number) => ({ order_id: number }));
+
+test('an order that came while the list was read waits only if the list lacks it', () => {
+  for (const filter of ['', 'state=OPEN']) {
+    const list = reading([3, 4], filter);
+    list.begun(3, orders(3, 2, 1));
+    assert.equal(list.fresh, 1);
+    assert.deepEqual([...list.news], [4]);
+  }
 });
