@@ -259,6 +259,7 @@ TEST(Epibt, LetsInWhoWaitsBesideAStream) {
   };
   EpibtOptions braking;
   braking.turn_ticks = 2;
+  braking.pursuing = 1;  // ranks alone decide: none of those in the stream ever arrives, and yields
   const auto planner = makeEpibt(braking);
   planner->start(floor, {}, 1);
   Plan plan;
