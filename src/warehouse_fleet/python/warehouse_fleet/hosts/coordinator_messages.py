@@ -27,6 +27,9 @@ class Watch(Protocol):
     objects: Any  # WarehouseObjects
     reasons: dict[str, str]  # why robots are broken, in their own words, by model
 
+    def refusals(self, now: float) -> dict[str, str]:
+        """Returns why robots refused what they were sent a short time ago, by model."""
+
     @property
     def by_hand(self) -> Collection[str]:
         """The names of stations where a person works."""
@@ -82,7 +85,7 @@ def state_message(
     state.collisions, state.blocked = watch.collisions, traffic.blocked
     state.watchdog = traffic.watchdog.count
     state.alarms = [
-        *_alarms(controller, watch.reasons),
+        *_alarms(controller, watch.reasons, watch.refusals(traffic.time)),
         *waiting.for_people(),
         *_fallen(watch.objects),
         *in_the_way(controller.plan, traffic, transports.units),
@@ -105,7 +108,9 @@ def _count_modes(state: CoordinatorState, controller: FleetController) -> None:
     state.manual, state.out_of_service = len(state.manual_kiva), len(state.out_of_service_kiva)
 
 
-def _alarms(controller: FleetController, reasons: dict[str, str]) -> Iterable[str]:
+def _alarms(
+    controller: FleetController, reasons: dict[str, str], refusals: dict[str, str]
+) -> Iterable[str]:
     robots = controller.robots
     for robot in np.flatnonzero(robots.failures):
         name, what = f"kiva{robots.kiva_ids[robot]}", names_of(robots.failures[robot])
@@ -113,7 +118,9 @@ def _alarms(controller: FleetController, reasons: dict[str, str]) -> Iterable[st
             what = f"{what} ({reasons[name]})"
         yield f"{name}: {what}"
     for kiva in robots.kiva_ids[robots.stalled & ~robots.broken].tolist():
-        yield f"kiva{kiva} does not move"
+        name = f"kiva{kiva}"
+        because = f": it refuses what it is sent ({refusals[name]})" if name in refusals else ""
+        yield f"{name} does not move{because}"
     for kiva in robots.kiva_ids[robots.lost].tolist():
         yield (
             f"kiva{kiva} was pushed and does not find back: put it straight, then set it AUTOMATIC"

@@ -26,6 +26,9 @@ from warehouse_msgs.msg import (
     WarehouseObjects,
 )
 
+# A vehicle that refuses is asked again after 30 s at most; and the answer takes a while [s].
+REPEATED = 45.0
+
 
 class WarehouseWatch:
     """The latest message of each topic, and the events since the last take.
@@ -43,6 +46,7 @@ class WarehouseWatch:
         self.by_hand: frozenset[str] = frozenset()
         self.collisions = 0
         self.reasons: dict[str, str] = {}  # why robots are broken, in their own words, by model
+        self._refusals: dict[str, tuple[float, str]] = {}  # by model: when [s], and the words
         self._refused: list[str] = []
         self._rejected: list[tuple[int, int, str]] = []
         subscribe(rospy, "warehouse/scenery", Scenery, self._on_scenery, queue_size=1)
@@ -93,6 +97,13 @@ class WarehouseWatch:
             self._rejected.append((kiva_id, int(unit), event.text))
         else:
             self._refused.append(event.model)
+            self._refusals[event.model] = event.header.stamp.to_sec(), event.text
+
+    def refusals(self, now: float) -> dict[str, str]:
+        """Returns why robots refused what they were sent a short time ago [s], in their own words,
+        by model."""
+        last = self._refusals.items()
+        return {model: text for model, (when, text) in last if 0 <= now - when < REPEATED}
 
     def take_rejected(self) -> list[tuple[int, int, str]]:
         """Returns (kiva id, unit, reason) of robots that can't carry a unit, since the last

@@ -30,7 +30,7 @@ BROKEN = "ROBOT_BROKEN"
 # Kinds by patterns of the coordinator's sentences; the first group is whom they concern.
 SENTENCES = (
     (re.compile(r"(kiva\d+): "), BROKEN),
-    (re.compile(r"(kiva\d+) does not move$"), "ROBOT_STALLED"),
+    (re.compile(r"(kiva\d+) does not move(?:: |$)"), "ROBOT_STALLED"),
     (re.compile(r"(kiva\d+) was pushed "), "ROBOT_LOST"),
     (re.compile(r"(.+) has waited for a person for "), "STATION_UNATTENDED"),
     (re.compile(r"(.+) lies on the floor, off "), "ITEM_FALLEN"),

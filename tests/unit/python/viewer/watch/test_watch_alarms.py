@@ -74,6 +74,11 @@ def test_every_kind_says_what_to_do():
     [
         ("kiva3: drive, lift stuck", "ROBOT_BROKEN", "kiva3"),
         ("kiva7 does not move", "ROBOT_STALLED", "kiva7"),
+        (
+            "kiva7 does not move: it refuses what it is sent (orderError: 'no')",
+            "ROBOT_STALLED",
+            "kiva7",
+        ),
         ("kiva7 was pushed and does not find back: put it straight", "ROBOT_LOST", "kiva7"),
         ("pick1 has waited for a person for 40 s", "STATION_UNATTENDED", "pick1"),
         ("item4 lies on the floor, off storage_unit1", "ITEM_FALLEN", "item4"),
