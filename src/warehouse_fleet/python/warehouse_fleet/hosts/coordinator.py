@@ -226,7 +226,8 @@ class CoordinatorNode:
         if self.controller is not None:
             self.controller.close()
         self.controller = self._random = None
-        self._watch.take_refused(), self._watch.take_rejected()
+        self._watch.take_refused()
+        self._watch.take_rejected()
         try:
             grid = request_map()
             if not grid.data:
