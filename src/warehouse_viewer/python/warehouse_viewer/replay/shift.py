@@ -87,7 +87,13 @@ def figures(ops: Operations) -> dict[str, Any]:
 def coordinator(fleet: WorldFleet, objects: SimpleNamespace) -> dict[str, Any]:
     """Returns the state of a WorldFleet's coordinator as JSON; `objects` as
     RunFeed.objects."""
-    watch = SimpleNamespace(by_hand=(), collisions=fleet.collisions, objects=objects, reasons={})
+    watch = SimpleNamespace(
+        by_hand=(),
+        collisions=fleet.collisions,
+        objects=objects,
+        reasons={},
+        refusals=lambda _now: {},
+    )
     return catalogue.plain_coordinator(state_message(fleet.controller, watch, 0, ""))
 
 

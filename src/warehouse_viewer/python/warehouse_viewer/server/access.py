@@ -19,6 +19,9 @@ Headers = Sequence[tuple[bytes, bytes]]  # as ASGI has them: names and values
 
 MOST_BODY = 64 * 1024  # [bytes]
 MOST_LAYOUT = 8 * 1024 * 1024  # the same where layouts, worlds and tables of orders are sent
+# Paths of the files of pages. A page has up to a hundred: tabs that are opened within a second
+# would lack some, if these requests were limited.
+PAGE_FILES = re.compile(r"(/s/[^/]+)?/(web|three)/.*")
 # Paths where layouts, worlds and tables of orders are sent, also of a simulation in a hub.
 TAKES_LAYOUTS = re.compile(
     r"(/s/[^/]+)?(/(layout|whatif)/.*"
@@ -39,6 +42,12 @@ def is_local(host: str) -> bool:
         return host == "localhost" or ipaddress.ip_address(host).is_loopback
     except ValueError:
         return False
+
+
+def is_page_file(scope: Scope) -> bool:
+    """Returns whether a file of a page is asked for."""
+    is_read = scope.get("method") in ("GET", "HEAD")
+    return is_read and bool(PAGE_FILES.fullmatch(scope.get("path", "")))
 
 
 def most_body(scope: Scope) -> int:
@@ -129,7 +138,7 @@ class AccessControl:
             await _limited(self._app, scope, receive, send)
 
     def _check(self, scope: Scope, headers: Mapping[str, str]) -> None:
-        if not self._limit.allows(_address(scope)):
+        if not is_page_file(scope) and not self._limit.allows(_address(scope)):
             raise Refusal(429, "too many requests; slow down", AGAIN)
         if int(headers.get("content-length", "0") or 0) > most_body(scope):
             raise Refusal(413, f"the body is larger than {most_body(scope)} bytes")

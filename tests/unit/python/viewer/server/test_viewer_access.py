@@ -97,6 +97,13 @@ def test_too_many_requests_of_one_address_are_refused():
     assert status(access, client="5.6.7.8") == 200
 
 
+def test_the_files_of_pages_are_not_counted():
+    access = AccessControl(echo, rate=2)
+    for path in ("/web/js/main.js", "/s/hall/three/build/three.module.js"):
+        assert {request(access, path, headers=LOCAL).status for _ in range(9)} == {200}
+    assert [status(access) for _ in range(5)] == [200, 200, 200, 200, 429]
+
+
 def test_the_limit_eases_with_time():
     now = [0.0]
     limit = RateLimit(2, clock=lambda: now[0])
