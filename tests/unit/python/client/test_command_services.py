@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Calls of services are told with the node that called, before they are answered."""
+"""Calls of services are published with the node that called, before they are answered."""
 
 import rospy
 import yaml

@@ -12,7 +12,7 @@ from warehouse_vda5050.master.load_fit import OWN_TYPE, LoadChoice, UnitMeasures
 from warehouse_vda5050.master.whereabouts import FASTEST
 from warehouse_vda5050.model import Action, BlockingType, Factsheet, LoadSet, SupportedAction
 
-FASTER = 1.2  # a vehicle is at most so many times as fast as its factsheet says
+FASTER = 1.2  # a vehicle is at most this many times as fast as its factsheet says
 # What a lift is best sent as, from left to right.
 PREFERRED = (BlockingType.HARD, BlockingType.SOFT, BlockingType.SINGLE, BlockingType.NONE)
 # Optional fields that orders have in any case, and those that they have where a vehicle requires
