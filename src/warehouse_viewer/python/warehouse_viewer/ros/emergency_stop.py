@@ -85,9 +85,10 @@ class EmergencyStop:
 
     def hear(self, command: Heard) -> None:
         """Takes a stop of the fleet by another client, or its end."""
-        if command.topic != self._topic or command.fields["kiva_id"] != ALL:
+        robots, stop = command.fields.get("kiva_id"), command.fields.get("stop")
+        if command.topic != self._topic or robots != ALL or stop is None:
             return
-        is_stop = bool(command.fields["stop"])
+        is_stop = bool(stop)
         with self._lock:
             if is_stop != (self._hold is not None):
                 self._set(Hold("", self._now) if is_stop else None)

@@ -46,11 +46,22 @@ def hear_calls(ros: ModuleType, *takers: Callable[[Heard], None]) -> None:
 
 def _subscribe(ros: ModuleType, topic: str, takers: Sequence[Callable[[Heard], None]]) -> None:
     def take(command: Command) -> None:
-        heard = Heard(command.topic, command.sender, yaml.safe_load(command.fields) or {})
+        fields = _fields_of(command)
+        if fields is None:  # another program publishes here, too
+            return
         for taker in takers:
-            taker(heard)
+            taker(Heard(command.topic, command.sender, fields))
 
     subscribe(ros, topic, Command, take, queue_size=1000)
+
+
+def _fields_of(command: Command) -> dict[str, Any] | None:
+    """Returns the fields of a command by name; None if its text has none."""
+    try:
+        fields = yaml.safe_load(command.fields) or {}
+    except yaml.YAMLError:
+        return None
+    return fields if isinstance(fields, dict) else None
 
 
 class CommandNotes:
@@ -80,6 +91,6 @@ class CommandNotes:
             address="",
             method=method,
             path=heard.topic,
-            body=json.dumps(heard.fields)[:MOST_TEXT],
+            body=json.dumps(heard.fields, default=str)[:MOST_TEXT],
             status=UNANSWERED,
         )

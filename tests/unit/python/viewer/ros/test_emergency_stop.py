@@ -60,6 +60,8 @@ def test_it_outlasts_the_viewer_and_hears_other_clients():
     again = EmergencyStop(ros)
     assert again.hold.by == "Ann"
     again.hear(heard(kiva_id=3, stop=0))
+    again.hear(heard(kiva_id=0))
+    again.hear(heard(stop=0))
     again.hear(Heard("/rot", "/someone", {"kiva_id": 0, "direction": 1}))
     assert again.hold
     again.hear(heard(kiva_id=0, stop=0))

@@ -42,6 +42,17 @@ def test_the_viewers_own_and_the_coordinators_are_not_noted(hears, log):
     assert log.rows() == []
 
 
+@pytest.mark.parametrize("fields", ["[", "a word", "- 1", "kiva_id: {"])
+def test_what_has_no_fields_is_no_command(hears, log, fields):
+    hears(Command("/stop", "/someone", fields))
+    assert log.rows() == []
+
+
+def test_any_value_of_a_field_is_noted(hears, log):
+    hears(Command("/stop", "/someone", "kiva_id: 2026-11-27"))
+    assert json.loads(log.rows()[0]["body"]) == {"kiva_id": "2026-11-27"}
+
+
 @pytest.fixture
 def hears_calls(log):
     ros = FakeRos()

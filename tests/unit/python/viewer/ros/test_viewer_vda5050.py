@@ -17,7 +17,7 @@ from warehouse_viewer.ros import vda5050_feed
 from warehouse_viewer.ros.vda5050_feed import Vda5050Feed
 
 
-def told(direction=Vda5050.VEHICLE):
+def listing(direction=Vda5050.VEHICLE):
     return Vda5050(
         broker="host:1883",
         direction=direction,
@@ -35,7 +35,7 @@ def told(direction=Vda5050.VEHICLE):
 
 
 def test_the_api_names_whose_robot_it_is():
-    (robot,) = catalogue.at_broker(told())
+    (robot,) = catalogue.at_broker(listing())
     assert (robot.driven_by, robot.connection, robot.order) == (
         "OUTSIDE_MASTER",
         "CONNECTIONBROKEN",
@@ -43,7 +43,7 @@ def test_the_api_names_whose_robot_it_is():
     )
     assert robot.errors == ["orderError: off the floor", "motorError: no torque"]
     assert robot.faults == ["lost", "error:WARNING"]
-    (robot,) = catalogue.at_broker(told(Vda5050.MASTER))
+    (robot,) = catalogue.at_broker(listing(Vda5050.MASTER))
     assert robot.driven_by == "COORDINATOR"
 
 
@@ -51,7 +51,7 @@ def test_the_feed_keeps_one_message_a_direction():
     ros = FakeRos()
     feed = Vda5050Feed(ros)
     feed._subscriber.get_num_connections = lambda: 1
-    for message in (told(), told(), told(Vda5050.MASTER)):
+    for message in (listing(), listing(), listing(Vda5050.MASTER)):
         feed._keep(message)
     assert len(feed.messages) == 2
     feed._subscriber.get_num_connections = lambda: 0
@@ -61,7 +61,7 @@ def test_the_feed_keeps_one_message_a_direction():
 def test_a_message_that_comes_before_its_connection_counts_is_kept(monkeypatch):
     feed, now = Vda5050Feed(FakeRos()), [100.0]
     monkeypatch.setattr(vda5050_feed.time, "monotonic", lambda: now[0])
-    feed._keep(told())
+    feed._keep(listing())
     feed._subscriber.get_num_connections = lambda: 0
     assert feed.messages == []
     feed._subscriber.get_num_connections = lambda: 1
@@ -94,7 +94,7 @@ def test_a_fault_goes_to_the_vehicles_and_their_refusal_comes_back(monkeypatch):
 
 
 def test_the_api_has_where_vehicles_say_that_they_will_drive():
-    message = told(Vda5050.MASTER)
+    message = listing(Vda5050.MASTER)
     message.planned_points, message.waypoints = [2], [1]
     message.planned_x, message.planned_y = [0.0, 3.0], [1.0, 1.0]
     message.waypoint_x, message.waypoint_y, message.waypoint_time = [2.0], [1.0], [1e9]
@@ -156,7 +156,7 @@ def test_vehicles_at_the_broker_come_from_the_master_and_refusals_go_back(monkey
 def test_a_vehicle_of_the_master_is_known_by_its_number():
     feed = Vda5050Feed(FakeRos())
     feed._subscriber.get_num_connections = lambda: 1
-    feed._keep(told())
+    feed._keep(listing())
     assert not feed.is_driven(7)  # an outside master may drive it: it is a robot of ours
-    feed._keep(told(Vda5050.MASTER))
+    feed._keep(listing(Vda5050.MASTER))
     assert feed.is_driven(7) and not feed.is_driven(8)
