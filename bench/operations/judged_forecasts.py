@@ -17,9 +17,7 @@ HEAD = (
     " | bias, 30 min | median error: 10 min | 30 min | 60 min | of the rate, 30 min"
     " | Brier | of the base rate |"
 )
-WIDTHS = (
-    "| | half of a band: 10 min | 30 min | 60 min | factor: 10 min | 30 min | 60 min |"
-)
+WIDTHS = "| | half of a band: 10 min | 30 min | 60 min | factor: 10 min | 30 min | 60 min |"
 BIASES = "| | orders | forecasts | bias, 10 min | 30 min | 60 min |"
 
 
@@ -56,7 +54,7 @@ class Judged:
         return np.mean((self.high - self.low) / 2 / self.middle)
 
     def stretches(self):
-        """By how much the half of a band towards the outcome has to be stretched to hold it."""
+        """The factor that the half of a band towards the outcome needs to hold it."""
         above = self.truth > self.middle
         half = np.where(above, self.high - self.middle, self.middle - self.low)
         return np.abs(self.truth - self.middle) / np.maximum(half, 0.5)
@@ -113,7 +111,7 @@ def widths(rows):
 
 
 def factor(stretches, groups):
-    """By how much bands have to be stretched to hold HELD of the outcomes."""
+    """The factor that bands need to hold HELD of the outcomes, in words."""
     middle = np.quantile(stretches, HELD)
     low, high = np.quantile(resampled(stretches, groups, HELD), (0.025, 0.975))
     return f"{middle:.1f} ({low:.1f} to {high:.1f})"

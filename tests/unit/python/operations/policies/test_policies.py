@@ -9,7 +9,7 @@ from operations_site import site
 
 from warehouse_operations import Operations, Policies, PolicyError
 from warehouse_operations.policies import ROLES
-from warehouse_operations.stock.lead_time import LeadTime
+from warehouse_operations.stock.travel import LeadTime
 
 CHOICES = [(role, name) for role, names in ROLES.items() for name in names]
 
