@@ -12,10 +12,10 @@ import numpy as np
 from warehouse_layout.floor.stations import PICK
 from warehouse_layout.message_enums import StationMode
 from warehouse_operations.stock.inventory import Bin, Inventory
-from warehouse_operations.stock.travel import LeadTime
 from warehouse_operations.stock.orders import Bundle, Line, Order
 from warehouse_operations.stock.settings import Settings
 from warehouse_operations.stock.totes import Totes
+from warehouse_operations.stock.travel import LeadTime
 
 
 @dataclass(eq=False)
