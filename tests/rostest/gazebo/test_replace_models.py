@@ -92,8 +92,8 @@ class Replacing(unittest.TestCase):
             self.assertTrue(replace(large).success)
             objects.wait_for(lambda messages: len(messages[-1].items) == 4000)
             self.assertTrue(replace([]).success)
-            seen = objects.wait_for(lambda messages: len(messages[-1].items) == 0)
-        self.assertEqual({len(message.items) for message in seen}, {0, 4000})
+            received = objects.wait_for(lambda messages: len(messages[-1].items) == 0)
+        self.assertEqual({len(message.items) for message in received}, {0, 4000})
         latched("/warehouse/objects", WarehouseObjects, lambda m: not m.storage_units)
 
     def test_a_fault_that_can_be_seen_beforehand_changes_nothing(self):

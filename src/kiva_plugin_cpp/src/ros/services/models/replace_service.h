@@ -19,10 +19,10 @@ namespace kiva_ros {
 /// Serves ~replace_models: replaces a whole warehouse in one request.
 ///
 /// Built model by model or batch by batch by a client, each batch makes the world publish all
-/// objects so far, and each node read them: for 200,000 models that was nine tenths of the time.
-/// Here objects are published once, at the end. The step thread is free between two batches, for
-/// other requests. A call takes long: `node` is that of a thread of its own, the one which parses
-/// other models.
+/// objects so far, and each node read them: for 200,000 models that was nine tenths of the CPU
+/// time. Here objects are published once, at the end. The step thread is free between two batches,
+/// for other requests. A call takes long: `node` is that of a thread of its own, the one which
+/// parses other models.
 class ReplaceService {
  public:
   ReplaceService(ros::NodeHandle& node, SimulationThread& simulation, kiva::ModelPaths model_paths,

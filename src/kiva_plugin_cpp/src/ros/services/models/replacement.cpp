@@ -62,11 +62,11 @@ std::vector<std::string> leavingModels(const kiva::World& world,
 void checkNames(const kiva::World& world, const std::vector<std::string>& leaving,
                 const std::vector<ReplacementDocument>& documents) {
   const std::unordered_set<std::string> gone(leaving.begin(), leaving.end());
-  std::unordered_map<std::string, std::size_t> seen;  // in which document
+  std::unordered_map<std::string, std::size_t> document_of;
   for (std::size_t i = 0; i < documents.size(); ++i) {
     for (const kiva::ModelInstance& model : documents[i].models) {
       const std::string where = fieldOf(i) + ": model '" + model.name + "': ";
-      const auto [first, is_new] = seen.emplace(model.name, i);
+      const auto [first, is_new] = document_of.emplace(model.name, i);
       if (!is_new) throw ServiceRefusal(where + fieldOf(first->second) + " has one of that name");
       if (world.has(model.name) && !gone.count(model.name)) {
         throw ServiceRefusal(where + "one of that name stands and is not among those that go");
