@@ -26,6 +26,7 @@ from warehouse_vda5050.master.commands import (
 from warehouse_vda5050.master.instant import MOST_TIMES, RESEND, InstantRequests
 from warehouse_vda5050.master.journey import Journey
 from warehouse_vda5050.master.load_fit import Measure, unknown
+from warehouse_vda5050.master.introduction import too_large
 from warehouse_vda5050.master.robots_file import RemoteRobot
 from warehouse_vda5050.master.vehicle_view import VehicleView
 from warehouse_vda5050.master.whereabouts import jumped, left_way, missed, square
@@ -175,6 +176,10 @@ class RemoteVehicle:
         self.view.speedometer.fastest = self.abilities.top_speed
         if self._journey:
             self._journey.max_nodes = sheet.max_nodes
+        misfit = too_large(sheet, self._grid.spacing)
+        if misfit and misfit != self.view.misfit:
+            self._happened(EventKind.REFUSED, f"it does not fit: {misfit}")
+        self.view.misfit = misfit
 
     def refuse_factsheet(self, fault: str) -> None:
         """Reports a factsheet that can't be read; what was known before goes on to hold."""
