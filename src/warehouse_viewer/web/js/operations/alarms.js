@@ -5,6 +5,7 @@ import { AlarmRow } from '../base/alarm_row.js';
 import { post } from '../base/api.js';
 import { $, on } from '../base/dom.js';
 import { knownPerson, personOf } from '../base/person.js';
+import { arrange } from '../base/rows.js';
 import { tr } from '../language/texts.js';
 
 const TITLE = document.title;
@@ -47,10 +48,7 @@ export class Alarms {
     const kept = this.rows;
     this.rows = new Map(all.map((alarm) => [alarm.id, kept.get(alarm.id) ?? new AlarmRow((chosen, by) => this.see(chosen, by), (chosen, remedy) => this.apply(chosen, remedy))]));
     all.forEach((alarm) => this.rows.get(alarm.id).show(alarm, this.now));
-    const elements = [...this.rows.values()].map(({ element }) => element);
-    if (elements.some((element, i) => $('alarms').children[i] !== element) || $('alarms').children.length !== elements.length) {
-      $('alarms').replaceChildren(...elements);
-    }
+    arrange($('alarms'), [...this.rows.values()].map(({ element }) => element));
     const unseen = all.filter(({ seen_by: by }) => !by).length;
     if ($('alarm-past').open && all.length !== this.count) this.showPast();
     this.count = all.length;

@@ -8,6 +8,7 @@ import { StationMode } from '../base/message_enums.js';
 import { number, percent } from '../language/numbers.js';
 import { knownPerson } from '../base/person.js';
 import { ROOT } from '../base/root.js';
+import { whileBusy } from '../base/rows.js';
 import { Choice, waitsOf } from '../base/station.js';
 import { tr } from '../language/texts.js';
 import { lasting } from '../base/time.js';
@@ -64,16 +65,13 @@ class Row {
   }
 
   /** Each button sends both: until the server has one, the other waits. */
-  async set(open, mode) {
-    for (const button of [this.gate, this.hand]) button.disabled = true;
-    try {
+  set(open, mode) {
+    return whileBusy([this.gate, this.hand], async () => {
       const answer = await put(`/stations/${this.station.name}`, { open, mode, by: knownPerson() });
       this.choice.note({ open, mode }, performance.now());
       this.show(this.station, this.now);
       return answer;
-    } finally {
-      for (const button of [this.gate, this.hand]) button.disabled = false;
-    }
+    });
   }
 
   show(newest, now) {

@@ -4,6 +4,7 @@
 import { $, make, setText } from '../base/dom.js';
 import { RobotMode } from '../base/message_enums.js';
 import { number as figure } from '../language/numbers.js';
+import { keepRows } from '../base/rows.js';
 import { plural, tr } from '../language/texts.js';
 import { lasting } from '../base/time.js';
 import { counted, countedWork } from '../base/words.js';
@@ -50,9 +51,9 @@ export class FleetPanel {
       make('dt', { textContent: what }), make('dd', { textContent: text })]));
     if (!this.alarms) this.showSentences(fleet.alarms);
     else this.byCause?.tick(fleet.time);
-    const rows = fleet.waiting.slice(0, MOST_WAITING).map((waits) => this.row(waits));
-    $('waiting').replaceChildren(...rows);
-    $('waiting-title').hidden = rows.length === 0;
+    const waiting = fleet.waiting.slice(0, MOST_WAITING);
+    keepRows($('waiting'), waiting, { keyOf: ({ robot }) => robot, make: ({ robot }) => this.row(robot), show: (row, waits) => setText(row, this.textOf(waits)) });
+    $('waiting-title').hidden = waiting.length === 0;
   }
 
   /** What the coordinator says, where nothing joins it by cause: in a recording. */
@@ -79,9 +80,12 @@ export class FleetPanel {
     this.byCause.take(this.alarms, this.fleet?.time ?? 0);
   }
 
-  row({ robot, since, text: reason }) {
-    const text = tr`kiva${robot} waits ${reason}, for ${lasting(this.fleet.time - since)}`;
-    return make('button', { textContent: text, click: () => this.select(`kiva${robot}`) });
+  row(robot) {
+    return make('button', { click: () => this.select(`kiva${robot}`) });
+  }
+
+  textOf({ robot, since, text: reason }) {
+    return tr`kiva${robot} waits ${reason}, for ${lasting(this.fleet.time - since)}`;
   }
 
   /** Who commands a robot, by its id; null where no coordinator runs. */
