@@ -2,6 +2,7 @@
 // The alarms, the worst first: since when each holds, its cause, what to do, and the person that saw it.
 
 import { AlarmRow } from '../base/alarm_row.js';
+import { AlarmVoice } from '../base/alarm_voice.js';
 import { post } from '../base/api.js';
 import { $, on } from '../base/dom.js';
 import { knownPerson, personOf } from '../base/person.js';
@@ -17,6 +18,7 @@ export class Alarms {
   /** `fail(error)` where the server refuses. */
   constructor(fail) {
     Object.assign(this, { fail, alarms: [], away: null, now: 0, rows: new Map() });
+    this.voice = new AlarmVoice((text) => { $('alarm-told').textContent = text; });
     on($('person'), 'click', () => this.ask());
     on($('alarm-past'), 'toggle', () => this.showPast());
     this.showPerson();
@@ -24,10 +26,8 @@ export class Alarms {
 
   /** All alarms of the server. */
   take(alarms) {
-    const known = new Set(this.alarms.map(({ id }) => id));
-    const [fresh] = alarms.filter(({ id }) => !known.has(id));
     this.alarms = alarms;
-    if (fresh) $('alarm-told').textContent = tr`Alarm: ${fresh.title}. ${fresh.text}. ${fresh.to_do}`;
+    this.voice.take(alarms);
     this.draw();
   }
 

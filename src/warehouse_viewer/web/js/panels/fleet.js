@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The fleet that a coordinator drives, at a glance; nothing where none runs.
 
+import { AlarmVoice } from '../base/alarm_voice.js';
 import { $, make, setText } from '../base/dom.js';
 import { RobotMode } from '../base/message_enums.js';
 import { number as figure } from '../language/numbers.js';
@@ -35,6 +36,7 @@ export class FleetPanel {
   /** `select(name)` is called for a robot that was clicked. */
   constructor(select) {
     Object.assign(this, { select, fleet: null, byCause: null, alarms: null });
+    this.voice = new AlarmVoice((text) => { $('alarm-told').textContent = text; });
   }
 
   get runs() {
@@ -66,6 +68,7 @@ export class FleetPanel {
   /** The server's alarms, by cause; null: it has none, as in a recording. */
   async takeAlarms(alarms) {
     this.alarms = alarms;
+    if (alarms) this.voice.take(alarms);
     const count = alarms?.length ?? 0;
     $('alarm-number').hidden = !count;
     setText($('alarm-number'), String(count));
