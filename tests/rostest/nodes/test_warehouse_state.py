@@ -55,9 +55,9 @@ class State(unittest.TestCase):
         self.addCleanup(calls.close)
         wait_until(calls.connections, "the node that builds")
         create("mine", warehouse_id=3, robots=2, shelves=4, items=9)
-        told = calls.until(lambda told: told.topic == "/warehouse/create_warehouse_models")
-        self.assertEqual(told.sender, rospy.get_name())
-        self.assertEqual(yaml.safe_load(told.fields)["warehouse_name"], "mine")
+        command = calls.until(lambda c: c.topic == "/warehouse/create_warehouse_models")
+        self.assertEqual(command.sender, rospy.get_name())
+        self.assertEqual(yaml.safe_load(command.fields)["warehouse_name"], "mine")
 
     def test_once_a_second_of_simulated_time(self):
         states = Listener(TOPIC, WarehouseState)

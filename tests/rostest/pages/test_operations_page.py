@@ -366,7 +366,7 @@ class OperationsPage(WorkPageTest):
         self.assertEqual(ask("/alarms/1/seen", {"by": "x" * 61})[0], 422)
 
     def test_7_the_focus_stays_where_the_keyboard_put_it(self):
-        """On a button that is disabled while its work is done, and in a list that changes."""
+        """Presses a button that is disabled while its work is done; then a list changes."""
         page = self.page
         page.open(address() + "operations")
         page.until(f"{HAND} && !{HAND}.disabled")

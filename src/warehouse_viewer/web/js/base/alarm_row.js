@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The row of an alarm: cause, consequences, remedies, and who has seen it.
 
-import { make } from './dom.js';
+import { make, whileBusy } from './dom.js';
 import { ROOT } from './root.js';
-import { whileBusy } from './rows.js';
 import { tr } from '../language/texts.js';
 import { lasting } from './time.js';
 import { shownName } from './words.js';

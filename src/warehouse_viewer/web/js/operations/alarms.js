@@ -4,9 +4,8 @@
 import { AlarmRow } from '../base/alarm_row.js';
 import { AlarmVoice } from '../base/alarm_voice.js';
 import { post } from '../base/api.js';
-import { $, on } from '../base/dom.js';
+import { $, arrange, on } from '../base/dom.js';
 import { knownPerson, personOf } from '../base/person.js';
-import { arrange } from '../base/rows.js';
 import { tr } from '../language/texts.js';
 
 const TITLE = document.title;

@@ -2,10 +2,9 @@
 // The batteries of the robots, the emptiest first; read while the section is open.
 
 import { get } from '../base/api.js';
-import { $, make, on, setText } from '../base/dom.js';
+import { $, keepRows, make, on, setText } from '../base/dom.js';
 import { number, percent } from '../language/numbers.js';
 import { ROOT } from '../base/root.js';
-import { keepRows } from '../base/rows.js';
 import { tr } from '../language/texts.js';
 import { ACTIVITY, ACTIVITY_NAMES } from '../base/words.js';
 
@@ -42,7 +41,7 @@ function draw(robots) {
   const sorted = robots.toSorted((a, b) => a.charge - b.charge || a.id - b.id);
   $('battery-sum').textContent = summary(sorted.map(({ charge }) => charge));
   const used = sorted.filter(({ charge }) => charge < FULL).slice(0, SHOWN);
-  keepRows($('battery-list'), used, { keyOf: ({ id }) => id, make: newRow, show: showRow });
+  keepRows($('battery-list'), used, { keyOf: ({ id }) => id, create: newRow, show: showRow });
 }
 
 /** What the charges 0 … 1, the least first, come to. */

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // How many robots do what at a glance, what work that is, and which of them wait.
 
-import { $, make, setText } from '../base/dom.js';
+import { $, keepRows, make, setText } from '../base/dom.js';
 import { number } from '../language/numbers.js';
 import { ROOT } from '../base/root.js';
-import { keepRows } from '../base/rows.js';
 import { tr } from '../language/texts.js';
 import { lasting } from '../base/time.js';
 import { ACTIVITY, ACTIVITY_CLASS, ACTIVITY_NAMES, counted, countedWork } from '../base/words.js';
@@ -40,7 +39,7 @@ export class RobotShares {
     const more = waiting.length - MOST_WAITS;
     const longest = [...waiting].sort((a, b) => a.since - b.since).slice(0, MOST_WAITS);
     const rows = [...longest, ...more > 0 ? [{ more }] : []];
-    keepRows($('waiting'), rows, { keyOf: ({ robot }) => robot ?? 'more', make: waitRow, show: (row, wait) => {
+    keepRows($('waiting'), rows, { keyOf: ({ robot }) => robot ?? 'more', create: waitRow, show: (row, wait) => {
       const { since, text: why } = wait;
       setText(row.lastChild, wait.more ? tr`and ${wait.more} more` : tr` waits ${lasting(time - since)} ${why}`);
     } });

@@ -3,12 +3,11 @@
 // themselves or by hand.
 
 import { put } from '../base/api.js';
-import { $, make, press } from '../base/dom.js';
+import { $, make, press, whileBusy } from '../base/dom.js';
 import { StationMode } from '../base/message_enums.js';
 import { number, percent } from '../language/numbers.js';
 import { knownPerson } from '../base/person.js';
 import { ROOT } from '../base/root.js';
-import { whileBusy } from '../base/rows.js';
 import { Choice, waitsOf } from '../base/station.js';
 import { tr } from '../language/texts.js';
 import { lasting } from '../base/time.js';

@@ -3,9 +3,8 @@
 
 import { AlarmRow } from '../base/alarm_row.js';
 import { post } from '../base/api.js';
-import { $, make } from '../base/dom.js';
+import { $, arrange, make } from '../base/dom.js';
 import { knownPerson, personOf } from '../base/person.js';
-import { arrange } from '../base/rows.js';
 import { tr } from '../language/texts.js';
 
 export class AlarmPanel {

@@ -2,10 +2,9 @@
 // The fleet that a coordinator drives, at a glance; nothing where none runs.
 
 import { AlarmVoice } from '../base/alarm_voice.js';
-import { $, make, setText } from '../base/dom.js';
+import { $, keepRows, make, setText } from '../base/dom.js';
 import { RobotMode } from '../base/message_enums.js';
 import { number as figure } from '../language/numbers.js';
-import { keepRows } from '../base/rows.js';
 import { plural, tr } from '../language/texts.js';
 import { lasting } from '../base/time.js';
 import { counted, countedWork } from '../base/words.js';
@@ -54,7 +53,7 @@ export class FleetPanel {
     if (!this.alarms) this.showSentences(fleet.alarms);
     else this.byCause?.tick(fleet.time);
     const waiting = fleet.waiting.slice(0, MOST_WAITING);
-    keepRows($('waiting'), waiting, { keyOf: ({ robot }) => robot, make: ({ robot }) => this.row(robot), show: (row, waits) => setText(row, this.textOf(waits)) });
+    keepRows($('waiting'), waiting, { keyOf: ({ robot }) => robot, create: ({ robot }) => this.row(robot), show: (row, waits) => setText(row, this.textOf(waits)) });
     $('waiting-title').hidden = waiting.length === 0;
   }
 
