@@ -155,8 +155,10 @@ def _mark_quantiles(canvas: Canvas, minutes: Sequence[np.ndarray]) -> None:
             text = f"{level} %: {at:.1f} min" if len(minutes) == 1 else letter(i)
             # Near the right edge the text stands before its mark; behind it, it would be cut.
             has_room = at < LABEL_ROOM * canvas.axes.get_xlim()[1]
-            place = {"xytext": (8, -12)} if has_room else {"xytext": (-8, 2), "ha": "right"}
-            canvas.say(at, level, text, tokens.series(i), fontweight="bold", **place)
+            offset, side = ((8, -12), "left") if has_room else ((-8, 2), "right")
+            canvas.say(
+                at, level, text, tokens.series(i), fontweight="bold", xytext=offset, ha=side
+            )
 
 
 def _quantile(minutes: np.ndarray, level: float) -> str:
