@@ -156,9 +156,7 @@ def _mark_quantiles(canvas: Canvas, minutes: Sequence[np.ndarray]) -> None:
             # Near the right edge the text stands before its mark; behind it, it would be cut.
             has_room = at < LABEL_ROOM * canvas.axes.get_xlim()[1]
             offset, side = ((8, -12), "left") if has_room else ((-8, 2), "right")
-            canvas.say(
-                at, level, text, tokens.series(i), fontweight="bold", xytext=offset, ha=side
-            )
+            canvas.say(at, level, text, tokens.series(i), fontweight="bold", xytext=offset, ha=side)
 
 
 def _quantile(minutes: np.ndarray, level: float) -> str:
