@@ -3,8 +3,9 @@
 
 A shift is divided into windows of ten minutes, each with a limit of its own: of stations and robots
 those with the higher utilisation, which are the bottleneck (Denning and Buzen, The Operational
-Analysis of Queueing Network Models, ACM Computing Surveys 10, 1978). The limit of the shift is that of the windows in which orders become late, else
-the one that holds longest: so an hour of peak shows in a quiet day.
+Analysis of Queueing Network Models, ACM Computing Surveys 10, 1978). The limit of the shift is that
+of the windows in which orders become late, else the one that holds longest: so an hour of peak
+shows in a quiet day.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
