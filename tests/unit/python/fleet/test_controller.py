@@ -10,6 +10,7 @@ from warehouse_fleet.robots.robot_table import NOWHERE, REPORT
 from warehouse_fleet.transports.lifts import LiftOrder
 from warehouse_fleet.transports.transport_book import Kind, Step
 from warehouse_fleet.transports.unit_map import UnitPoses
+from warehouse_fleet.transports.waiting import Waiting
 from warehouse_layout.message_enums import FailureKind, RobotMode, State, Status
 
 STATION = "pick1"
@@ -161,6 +162,21 @@ def test_a_robot_that_is_broken_in_a_street_is_towed_aside(begin):
     assert PLAN.storage.flat[PLAN.cell_of(tows[0].x, tows[0].y)]
     with pytest.raises(ValueError, match="kiva2 is not broken"):
         fleet.controller.tow(2)
+
+
+def test_a_robot_waits_for_a_broken_one_that_stands_where_it_has_to_go(begin):
+    fleet = begin()
+    unit = unit_above(0)
+    fleet.reports["failures"][0] = 1 << FailureKind.MOTOR
+    assert fleet.controller.transports.submit(unit, STATION).accepted
+    for _ in range(700):
+        fleet.tick()
+    traffic = fleet.controller.traffic
+    assert traffic.robots.goal[1] == WHERE.units[unit]
+    assert traffic.all_ahead().tolist() == [NOWHERE, 0]
+    waiting = Waiting(traffic, fleet.controller.transports.book)
+    assert dict(waiting.long())[1] == "behind kiva1, which is broken"
+    assert traffic.watchdog.count == 0
 
 
 def test_an_observation_that_is_late_is_stale(begin):

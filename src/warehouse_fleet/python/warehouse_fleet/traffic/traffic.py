@@ -164,23 +164,18 @@ class Traffic:
         if foreign.any():
             robots.mode[self._foreign >= FOREIGN] = MANUAL
 
-    def ahead_of(self, robot: int) -> int:
-        """Returns the robot that a robot waits for, by the plan or because it holds the next cell
-        of the lane; or NOWHERE."""
-        ahead = int(self.robots.waits_for[robot])
-        if ahead != NOWHERE or self.robots.busy[robot]:
-            return ahead
-        cell = int(self.robots.cell[robot])
-        after = int(self._after[cell]) if cell != NOWHERE else NOWHERE
-        return self.holder(after) if after != NOWHERE else NOWHERE
-
     def all_ahead(self) -> np.ndarray:
-        """Returns ahead_of() of each robot, (n,)."""
+        """Returns, (n,), the robot that each robot waits for: by the plan, because it holds the
+        next cell of the lane, or because it has closed the cell where this one has to go; or
+        NOWHERE."""
         robots = self.robots
         ahead = robots.waits_for.copy()
         after = np.where(robots.cell != NOWHERE, self._after[robots.cell], NOWHERE)
         asks = np.flatnonzero((ahead == NOWHERE) & ~robots.busy & (after != NOWHERE))
         ahead[asks] = self._execution.holders(after[asks])
+        barred = (ahead == NOWHERE) & ~robots.busy & (robots.goal != robots.cell)
+        barred = np.flatnonzero(barred & np.isin(robots.goal, self._execution.closed()))
+        ahead[barred] = self._execution.holders(robots.goal[barred])
         return ahead
 
     def holder(self, cell: int) -> int:

@@ -23,6 +23,7 @@ class VehicleView:
     pose: Pose = (0.0, 0.0, 0.0)  # in the frame world [m, rad]
     heard_at: float = 0.0  # when the last state came [s]
     reports_loads: bool = False
+    misfit: str = ""  # why it can't drive on this floor, '' if it can
     speedometer: Speedometer = field(default_factory=Speedometer, repr=False)
     _stamp: tuple[str, int] = field(default=("", 0), repr=False)
 
@@ -111,8 +112,9 @@ class VehicleView:
 
     @property
     def takes_orders(self) -> bool:
-        """Whether its mode is one in which it takes orders."""
-        return self.state is not None and self.state.mode in TAKES_ORDERS
+        """Whether its mode is one in which it takes orders, and it fits the floor."""
+        is_in_mode = self.state is not None and self.state.mode in TAKES_ORDERS
+        return is_in_mode and not self.misfit
 
     @property
     def why_not(self) -> str:
@@ -123,6 +125,8 @@ class VehicleView:
             return "it has reported nothing yet"
         if not self.is_localized:
             return "it does not know where it is"
+        if self.misfit:
+            return f"it does not fit: {self.misfit}"
         if not self.takes_orders:
             return f"its operating mode is {self.state.mode.value}"
         return next((f"it reports {text}" for text in self.fatal), "")

@@ -19,6 +19,8 @@ from warehouse_vda5050.zones.zone import Grant, RequestStatus, Response, Zone, Z
 PREFIX = "warehouse-"  # of the ids of all sets from here, also of earlier runs
 MARGIN = 0.02  # between a zone and a robot that turns in the cell beside it [m]
 LEAST = 0.1  # half of the least width of a zone [m]
+UNANSWERED = 5  # times that a set is sent before an alarm says that it is not answered
+SLOWEST = 60.0  # between two times from then on [s]
 AGAIN = 10.0  # until what was answered in vain is asked for again [s]
 ZoneMessage = ZoneSet | InstantActions | Responses
 
@@ -49,6 +51,7 @@ class ZoneDesk:
         self._count = 0
         self._set: ZoneSet | None = None  # that the vehicle is to drive by
         self._due = self._ask_at = 0.0
+        self._times = 0  # that the set was sent without an answer
         self._refusal = ""
         self._answers: dict[str, tuple[Grant, float]] = {}  # by request: the last, and when
         self._news: list[str] = []
@@ -56,6 +59,7 @@ class ZoneDesk:
     def take_factsheet(self, sheet: Factsheet) -> None:
         """Adapts the zones to those that the vehicle keeps to."""
         self._sheet = sheet
+        self._instants.most = sheet.lengths.instant_actions
 
     def close(self, areas: Iterable[ClosedArea]) -> None:
         """Takes the closed zones of the floor as they are now."""
@@ -101,7 +105,7 @@ class ZoneDesk:
         if zones == before and (self._set or not left):
             return
         self._count += 1
-        self._due, self._ask_at, self._refusal = 0.0, 0.0, ""
+        self._due, self._ask_at, self._times, self._refusal = 0.0, 0.0, 0, ""
         self._set = ZoneSet(f"{self._name}-{self._count}", self._view.map_id, zones)
         if 0 < self._sheet.max_zones < len(zones):
             self._refusal = f"{len(zones)} are closed, and {self._sheet.max_zones} are its most"
@@ -137,7 +141,7 @@ class ZoneDesk:
         known = {s.id: s for s in state.zone_sets}
         if zones.id not in known:
             if now >= self._due:
-                self._due = now + RESEND
+                self._back_off(zones, now)
                 yield zones
         elif not known[zones.id].enabled:
             self._ask("enableZoneSet", zones.id, now)
@@ -145,6 +149,14 @@ class ZoneDesk:
             for name in known:
                 if name.startswith(PREFIX) and not known[name].enabled:
                     self._ask("deleteZoneSet", name, now)
+
+    def _back_off(self, zones: ZoneSet, now: float) -> None:
+        """Waits twice as long each time that the set was not answered; says so once."""
+        self._due = now + min(RESEND * 2**self._times, SLOWEST)
+        self._times = min(self._times + 1, UNANSWERED + 1)
+        if self._times == UNANSWERED:
+            text = f"zone set {zones.id} was sent {UNANSWERED} times, and no state has it"
+            self._news.append(f"its zones are not answered: {text}; they do not hold for it")
 
     def _ask(self, action: str, name: str, now: float) -> None:
         if now >= self._ask_at:

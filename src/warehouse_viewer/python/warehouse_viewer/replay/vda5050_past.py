@@ -9,7 +9,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from warehouse_vda5050.master import robots_file
+from warehouse_vda5050.master.onboarded_file import OnboardedFile
 from warehouse_vda5050.recording import file
 from warehouse_vda5050.recording.moments import Moment, Moments
 from warehouse_viewer.json_text import JSONResponse
@@ -18,11 +18,12 @@ from warehouse_viewer.json_text import JSONResponse
 class Vda5050Past:
     """Serves the vehicles of a recording. Raises OSError, ValueError: what can't be read.
 
-    recorded: what `record` has written; robots: the file of vehicles that the warehouse drives.
+    recorded: what `record` has written; robots: the file of vehicles that the warehouse drives,
+    with what was added and removed in the file beside it.
     """
 
     def __init__(self, recorded: Path, robots: Path | None) -> None:
-        remote = robots_file.read(robots) if robots else []
+        remote = OnboardedFile(robots).robots() if robots else []
         numbers = {robot.identity: robot.number for robot in remote}
         self._moments, self._name = Moments(file.read(recorded), numbers), recorded.name
         if not self._moments.count:

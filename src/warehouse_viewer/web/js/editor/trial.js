@@ -31,6 +31,8 @@ export class Trial {
     try {
       const answer = await send('POST', '/try', text, abort.signal);
       await linesOf(answer, (line) => this.take(line, origin));
+      // A server that ended, or was killed for want of memory, closes the answer without a word.
+      if ($('trial').dataset.phase === 'running') this.phase('failed', tr`The trial ended without a result; try again.`);
     } catch (error) {
       if (this.abort === abort) this.phase('failed', error.name === 'AbortError' ? tr`cancelled` : error.message);
     }
@@ -96,7 +98,10 @@ export class Trial {
   }
 
   close() {
-    this.abort?.abort();
+    const { abort } = this;
+    // Let go of first: else run() would open the panel again, to say that it was cancelled.
+    this.abort = null;
+    abort?.abort();
     $('trial').hidden = true;
     Object.assign(this.editor, { heat: null, notes: null });
     this.editor.redrawOverlay();

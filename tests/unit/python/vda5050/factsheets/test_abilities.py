@@ -234,3 +234,19 @@ def test_a_factsheet_comes_over_the_wire_as_it_is(version):
 def test_a_vehicle_without_a_factsheet_is_driven_as_before():
     bench = Bench(PLAIN)
     assert isinstance(bench.vehicle, RemoteVehicle) and lift(bench).type == "pick"
+
+
+# --- size
+
+
+def test_a_vehicle_larger_than_a_cell_is_refused_from_its_factsheet_on():
+    bench = bench_of(Factsheet(length=1.4))
+    bench.vehicle.command(Follow(9, 0, WAY, 2))
+    why = "it does not fit: it is 1.4 m long, and a cell 1 m: it would reach into the cell beside"
+    events = [(event.kind.value, event.text) for event in bench.vehicle.take_events()]
+    assert events == [("REFUSED", why), ("REFUSED", why)]  # of the factsheet, of the path
+    assert not bench.vehicle.view.takes_orders, "the coordinator leaves it alone"
+    bench.vehicle.take_factsheet(Factsheet(length=1.4))
+    assert bench.vehicle.take_events() == [], "said once"
+    bench.vehicle.take_factsheet(Factsheet())
+    assert bench.vehicle.view.takes_orders

@@ -197,3 +197,19 @@ def test_zones_that_are_refused_are_reported_once():
     sides.step(5)
     (event,) = sides.master.take_events()
     assert event.text == "its zones are not sent: 2 are closed, and 1 are its most"
+
+
+def test_a_set_that_is_never_answered_is_sent_less_and_less_and_one_alarm_says_so():
+    sides = Sides()
+    sides.bench.vehicle.on_zone_set = lambda _zones: None
+    sides.master.close_zones([closed(3, 0, 4, 2)])
+    texts = []
+    for _ in range(600):
+        sides.step()
+        texts += [event.text for event in sides.master.take_events()]
+    sent = [message for message in sides.sent if isinstance(message, ZoneSet)]
+    assert 10 <= len(sent) <= 16  # 2, 4, 8, 16, 32 s, then once a minute
+    (alarm,) = [text for text in texts if "not answered" in text]
+    assert "was sent 5 times, and no state has it" in alarm
+    del sides.bench.vehicle.on_zone_set
+    sides.until(holds(1), 70)

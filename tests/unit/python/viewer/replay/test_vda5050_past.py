@@ -201,3 +201,16 @@ def test_replay_says_what_is_wrong_with_the_broker_s_recording(folder):
     assert f"replay: {folder / NAME}:1: no zstd" in said("--vda5050", folder / NAME)
     assert f"replay: {folder / NAME}: " in said("--vda5050", recorded, "--robots", folder / NAME)
     assert "--robots is of use with --vda5050 alone" in said("--robots", folder / "robots.yaml")
+
+
+def test_the_file_of_what_was_added_while_the_master_ran_counts_too(folder):
+    def numbers():
+        past = Vda5050Past(folder / "broker.jsonl.zst", robots)
+        return [moment.number for moment in past._moments.at(BEGIN + 15)]
+
+    robots = folder / "robots.yaml"
+    robots.write_text("5: {manufacturer: acme, serial: other}\n")
+    assert numbers() == [7], "that of its serial"
+    added = folder / "robots.onboarded.yaml"
+    added.write_text("12: {manufacturer: acme, serial: '0007', origin: [0, 0, 0]}\n")
+    assert numbers() == [12]
