@@ -6,14 +6,14 @@
 namespace kiva_ros {
 namespace {
 
-constexpr int kQueue = 1000;
+constexpr int kCallQueue = 1000;
 
 }  // namespace
 
 CallTopic::CallTopic(const std::string& service)
     : service_(service),
       topic_(ros::NodeHandle().advertise<warehouse_msgs::Command>("warehouse/service_calls",
-                                                                  kQueue)) {}
+                                                                  kCallQueue)) {}
 
 void CallTopic::publish(const std::string& caller, const std::string& fields) const {
   warehouse_msgs::Command call;
