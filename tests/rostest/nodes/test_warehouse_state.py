@@ -53,9 +53,11 @@ class State(unittest.TestCase):
     def test_a_call_that_builds_is_told_with_its_caller(self):
         calls = Listener("/warehouse/service_calls", Command)
         self.addCleanup(calls.close)
-        wait_until(calls.connections, "the node that builds")
+        wait_until(lambda: calls.connections() > 1, "the world and the node that builds")
         create("mine", warehouse_id=3, robots=2, shelves=4, items=9)
-        command = calls.until(lambda c: c.topic == "/warehouse/create_warehouse_models")
+        builds = lambda: [c for c in calls.messages if c.topic.endswith("create_warehouse_models")]  # noqa: E731
+        wait_until(builds, "the call that builds")
+        (command,) = builds()
         self.assertEqual(command.sender, rospy.get_name())
         self.assertEqual(yaml.safe_load(command.fields)["warehouse_name"], "mine")
 

@@ -21,7 +21,7 @@ from rostest_support.warehouse_test import (
     world,
 )
 
-from gazebo_msgs.srv import GetWorldProperties, SpawnModel
+from gazebo_msgs.srv import DeleteModel, GetWorldProperties, SpawnModel
 from warehouse_msgs.msg import Command, Event, FleetState, Lift, People, Rotate
 from warehouse_msgs.srv import Fail, FailRequest, LightCurtain, Person
 
@@ -48,17 +48,17 @@ class Commands(unittest.TestCase):
 
     def test_a_call_of_a_service_is_told_with_its_caller_and_fields(self):
         calls = Collector("/warehouse/service_calls", Command)
-        call("/warehouse/fail", Fail, kiva_id=1, kind=FailRequest.DRIVE)
-        spawned = {"model_name": MODEL, "model_xml": SDF}
-        call("/gazebo/spawn_sdf_model", SpawnModel, **spawned)
+        call("/warehouse/fail", Fail, 1, FailRequest.MOTOR, 0.0)
+        call("/gazebo/spawn_sdf_model", SpawnModel, model_name=MODEL, model_xml=SDF)
+        self.addCleanup(call, "/gazebo/delete_model", DeleteModel, MODEL)
         call("/gazebo/get_world_properties", GetWorldProperties)
-        call("/warehouse/fail", Fail, kiva_id=1, kind=FailRequest.REPAIRED)
+        call("/warehouse/fail", Fail, 1, FailRequest.REPAIRED, 0.0)
         got = calls.wait_for(lambda told: len(told) > 2)
         topics = ["/warehouse/fail", "/gazebo/spawn_sdf_model", "/warehouse/fail"]
         self.assertEqual([each.topic for each in got], topics)
         self.assertEqual({each.sender for each in got}, {rospy.get_name()})
         fail, spawn, _ = (yaml.safe_load(each.fields) for each in got)
-        self.assertEqual((fail["kiva_id"], fail["kind"]), (1, FailRequest.DRIVE))
+        self.assertEqual((fail["kiva_id"], fail["kind"]), (1, FailRequest.MOTOR))
         self.assertEqual(spawn["model_name"], MODEL)
         self.assertEqual(spawn["model_xml"][:4], SDF[:4])
         self.assertLess(len(spawn["model_xml"]), 300)
