@@ -29,8 +29,8 @@ BURST = 10000
 FLOOD = 60000  # of answers, more than sockets hold
 MODEL = 'a: "name"'
 SDF = f"""<sdf version="1.6"><model name="far"><pose>40 40 0 0 0 0</pose><static>1</static>
-<link name="a"><collision name="b"><geometry><box><size>1 1 1</size></box></geometry></collision></link>
-</model><!-- {"long " * 100} --></sdf>"""
+<link name="a"><collision name="b"><geometry><box><size>1 1 1</size></box></geometry></collision>
+</link></model><!-- {"long " * 100} --></sdf>"""
 
 
 class Commands(unittest.TestCase):
@@ -53,7 +53,7 @@ class Commands(unittest.TestCase):
         self.addCleanup(call, "/gazebo/delete_model", DeleteModel, MODEL)
         call("/gazebo/get_world_properties", GetWorldProperties)
         call("/warehouse/fail", Fail, 1, FailRequest.REPAIRED, 0.0)
-        got = calls.wait_for(lambda told: len(told) > 2)
+        got = calls.wait_for(lambda messages: len(messages) > 2)
         topics = ["/warehouse/fail", "/gazebo/spawn_sdf_model", "/warehouse/fail"]
         self.assertEqual([each.topic for each in got], topics)
         self.assertEqual({each.sender for each in got}, {rospy.get_name()})
