@@ -10,7 +10,7 @@ from judged_shift import HORIZONS, NEAR_BOUND
 
 LEVELS = (0.1, 0.5, 0.9)
 HELD = 0.8  # of the outcomes are to be in the band
-DRAWS, FEWEST = 2000, 4  # of a bootstrap; groups for one
+DRAWS, FEWEST = 2000, 5  # of a bootstrap; groups for one
 BINS = np.linspace(0, 1, 6)  # of odds
 HEAD = (
     "| | orders | realism | forecasts, shifts | in the band: 10 min | 30 min | 60 min"

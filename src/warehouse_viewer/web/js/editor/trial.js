@@ -47,7 +47,7 @@ export class Trial {
       $('trial-bar').max = of;
       $('trial-bar').value = time;
       const queues = Object.values(waiting).reduce((a, b) => a + b, 0);
-      this.phase('running', tr`${clock(time)} of ${clock(of)}: ${pieces} pieces, ${queues} units under way`);
+      this.phase('running', tr`${clock(time)} of ${clock(of)}: ${pieces} pieces, ${queues} units at stations or on their way`);
     }
   }
 
