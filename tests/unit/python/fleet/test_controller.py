@@ -212,3 +212,23 @@ def test_a_robot_that_is_driven_by_velocities_is_manual_until_it_is_given_back(b
     fleet.controller.set_mode(1, RobotMode.AUTOMATIC)
     fleet.tick()
     assert fleet.controller.robots.mode.tolist() == [RobotMode.AUTOMATIC] * 2
+
+
+def test_a_robot_waits_for_a_broken_one_in_the_only_way_to_its_station(begin):
+    fleet = begin()
+    unit = unit_above(1)
+    assert fleet.controller.transports.submit(unit, STATION).accepted
+    for _ in range(5):
+        fleet.tick()
+    fleet.reports["shelf_id"][1] = unit
+    fleet.tick()
+    assert fleet.step() == Step.BRINGING
+    fleet.put(0, int(next(s for s in PLAN.stations if s.name == STATION).cells[0]))
+    fleet.reports["failures"][0] = 1 << FailureKind.MOTOR
+    for _ in range(700):
+        fleet.tick()
+    traffic = fleet.controller.traffic
+    assert traffic.all_ahead().tolist() == [NOWHERE, 0]
+    waiting = Waiting(traffic, fleet.controller.transports.book)
+    assert dict(waiting.long())[1] == "behind kiva1, which is broken"
+    assert traffic.watchdog.count == 0
