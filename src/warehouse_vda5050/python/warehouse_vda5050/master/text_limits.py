@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a message keeps to the lengths of strings and arrays of a vehicle's factsheet."""
+"""Whether an order keeps to the lengths of strings and arrays of a vehicle's factsheet."""
 
 from collections.abc import Iterable, Iterator
 
-from warehouse_vda5050.model import Action, InstantActions, Lengths, VehicleOrder
+from warehouse_vda5050.model import Action, Lengths, VehicleOrder
 
 MESSAGE_HEAD = 400  # bytes of an order without nodes, with its header
 NODE_SHARE = 700  # bytes of a node and the edge to it, at most, without actions
@@ -17,17 +17,14 @@ def nodes_within(lengths: Lengths) -> int | None:
     return max(2, (lengths.message - MESSAGE_HEAD - ACTION_SHARE) // NODE_SHARE)
 
 
-def too_long(message: VehicleOrder | InstantActions, lengths: Lengths) -> str:
-    """Returns in a sentence what of a message the vehicle can't take, '' if it can take it all."""
-    return next(_faults(message, lengths), "")
+def too_long(order: VehicleOrder, lengths: Lengths) -> str:
+    """Returns in a sentence what of an order the vehicle can't take, '' if it can take it all."""
+    return next(_faults(order, lengths), "")
 
 
-def _faults(message: VehicleOrder | InstantActions, lengths: Lengths) -> Iterator[str]:
-    if isinstance(message, InstantActions):
-        yield from _of_actions(message.actions, lengths)
-        return
-    yield from _of_ids(_ids(message), lengths)
-    for node in message.nodes:
+def _faults(order: VehicleOrder, lengths: Lengths) -> Iterator[str]:
+    yield from _of_ids(_ids(order), lengths)
+    for node in order.nodes:
         if 0 < lengths.node_actions < len(node.actions):
             yield (
                 f"node {node.id} has {len(node.actions)} actions, and node.actions of its"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a screen reader hears of alarms: the worst of those that came, and how many came beside it. While one is
-// read, others wait and are told together: a hall that stops raises dozens.
+// What a screen reader hears of alarms: the worst of those that came, and how many came beside it. While it reads one
+// alarm, further alarms wait, and one sentence announces them together: a hall that stops raises dozens.
 
 import { plural, tr } from '../language/texts.js';
 
@@ -21,7 +21,7 @@ export class AlarmVoice {
   }
 
   speak() {
-    const [worst, ...others] = this.alarms.filter(({ id }) => this.untold.has(id)); // those that are over are not told
+    const [worst, ...others] = this.alarms.filter(({ id }) => this.untold.has(id)); // skips alarms that are over
     this.untold.clear();
     this.isSpeaking = Boolean(worst);
     if (!worst) return;

@@ -10,7 +10,8 @@
 
 namespace kiva_ros {
 
-/// Tells on /warehouse/service_calls, in the world's namespace, who called a service and how.
+/// Publishes the calls of a service, with caller and fields, on /warehouse/service_calls in the
+/// world's namespace.
 class CallTopic {
  public:
   /// `service`: its full name.
@@ -28,8 +29,8 @@ class CallTopic {
   ros::Publisher topic_;
 };
 
-/// Advertises a service that changes something: each call is told on the topic before
-/// act(request, response) answers it.
+/// Advertises a service that changes something. Publishes each call on the CallTopic, then has
+/// act(request, response) answer it.
 template <typename Request, typename Response, typename Act>
 ros::ServiceServer serveCommand(ros::NodeHandle& node, const std::string& name, Act act) {
   using Event = ros::ServiceEvent<Request, Response>;
@@ -41,7 +42,7 @@ ros::ServiceServer serveCommand(ros::NodeHandle& node, const std::string& name, 
   return node.advertiseService<Event>(name, take);
 }
 
-/// Does so for a method of `part`.
+/// Advertises a method of `part` as such a service.
 template <typename Part, typename Request, typename Response>
 ros::ServiceServer serveCommand(ros::NodeHandle& node, const std::string& name,
                                 bool (Part::*act)(const Request&, Response&), Part* part) {

@@ -61,7 +61,7 @@ ros::ServiceServer serve(ros::NodeHandle& node, const std::string& name, const s
   return node.advertiseService<Request, Response>(name, call);
 }
 
-/// Does the same for a service that changes something, so that its calls are told.
+/// Advertises a service as serve() does, and publishes its calls, since it changes something.
 template <typename Service, typename Body>
 ros::ServiceServer serveChange(ros::NodeHandle& node, const std::string& name,
                                const std::string& label, Body body) {
