@@ -36,8 +36,11 @@ export function endOf({ p10, p50, p90 }) {
   return `${clock(p50)} (${clock(p10)}–${p90 === null ? 'later' : clock(p90)})`;
 }
 
-/** What a forecast's text says that changes make. */
-export const differenceOf = (text) => text.split(AGAINST)[1] ?? '';
+/** What a forecast's text says that changes make, a line each. */
+export const differenceOf = (text) => (text.split(AGAINST)[1] ?? '').replaceAll(', ', '\n');
+
+/** A refusal without the '+0', 'at once', that no person wrote. */
+export const refusalOf = (text, written) => (/^\+0 /m.test(written) ? text : text.replace(/^'\+0 /, "'"));
 
 export class FromNow {
   constructor() {
@@ -59,7 +62,7 @@ export class FromNow {
       this.say('');
       this.show([...this.columns, forecast].slice(-MOST));
     } catch (error) {
-      this.say(error.message);
+      this.say(refusalOf(error.message, $('now-changes').value), 'refused');
     } finally {
       $('now-go').disabled = false;
     }
@@ -76,8 +79,10 @@ export class FromNow {
     }
   }
 
-  say(text) {
+  say(text, kind = '') {
     $('now-told').textContent = text;
+    $('now-told').className = kind ? 'answer' : 'dim';
+    $('now-told').dataset.kind = kind;
   }
 
   show(columns) {
