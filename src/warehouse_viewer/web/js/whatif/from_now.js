@@ -6,6 +6,7 @@ import { $, make, on } from '../base/dom.js';
 import { number } from '../language/numbers.js';
 import { tr } from '../language/texts.js';
 import { clock } from '../base/time.js';
+import { changesOf, refusalOf } from '../base/what_if.js';
 
 const PAUSE = 500; // between two looks for a forecast [ms]
 const MOST = 6; // forecasts side by side
@@ -18,11 +19,6 @@ const ROWS = [
   [tr`The changes make`, ({ text }) => differenceOf(text)],
   [tr`Made at, runs`, ({ made_at: at, runs }) => `${clock(at)}, ${number(runs)}`],
 ];
-
-/** The changes that lines say; a line without a time happens at once. */
-export function changesOf(text) {
-  return text.split('\n').map((line) => line.trim()).filter(Boolean).map((line) => (/^[+\d]/.test(line) ? line : `+0 ${line}`));
-}
 
 /** The last of a band, as '414 (370–437)'. */
 export function rangeOf({ p10, p50, p90 }) {
@@ -38,9 +34,6 @@ export function endOf({ p10, p50, p90 }) {
 
 /** What a forecast's text says that changes make, a line each. */
 export const differenceOf = (text) => (text.split(AGAINST)[1] ?? '').replaceAll(', ', '\n');
-
-/** A refusal without the '+0', 'at once', that no person wrote. */
-export const refusalOf = (text, written) => (/^\+0 /m.test(written) ? text : text.replace(/^'\+0 /, "'"));
 
 export class FromNow {
   constructor() {
