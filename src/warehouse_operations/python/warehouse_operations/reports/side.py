@@ -105,7 +105,9 @@ def _sure(verdicts: Sequence[Verdict], group: Group) -> str:
     if not of_pieces:
         return too_few(group)
     if of_pieces[0].difference.is_alike:
-        return f"after the warm-up by as much in each of {of_pieces[0].difference.estimate.count} runs"
+        return (
+            f"after the warm-up by as much in each of {of_pieces[0].difference.estimate.count} runs"
+        )
     if of_pieces[0].difference.significant:
         return f"chance hardly explains it ({p_text(of_pieces[0].p_value)})"
     return f"chance may explain it ({p_text(of_pieces[0].p_value)})"
