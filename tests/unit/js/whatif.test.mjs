@@ -6,7 +6,7 @@ import { test } from 'node:test';
 import { fitsOrders, freeName, ordersText, partsOf } from '../../../src/warehouse_viewer/web/js/whatif/choices.js';
 import { demandOf, demandText, describeDesign, edgesOf } from '../../../src/warehouse_viewer/web/js/whatif/design_words.js';
 import { eventsOf, linesOf, refusalOf } from '../../../src/warehouse_viewer/web/js/whatif/events.js';
-import { changesOf, refusalOf as refusalNow } from '../../../src/warehouse_viewer/web/js/base/what_if.js';
+import { changesOf, refusalOf as refusalNow } from '../../../src/warehouse_viewer/web/js/replay/changes.js';
 import { differenceOf, endOf, rangeOf } from '../../../src/warehouse_viewer/web/js/whatif/from_now.js';
 import { expectedOf } from '../../../src/warehouse_viewer/web/js/whatif/numbers.js';
 import { named } from '../../../src/warehouse_viewer/web/js/whatif/intro.js';

@@ -4,7 +4,7 @@
 import { $, make, on } from '../base/dom.js';
 import { ask } from '../base/request.js';
 import { clock } from '../base/time.js';
-import { changesOf, refusalOf } from '../base/what_if.js';
+import { changesOf, refusalOf } from './changes.js';
 import { number } from '../language/numbers.js';
 import { tr } from '../language/texts.js';
 

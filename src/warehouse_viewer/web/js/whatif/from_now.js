@@ -6,7 +6,7 @@ import { $, make, on } from '../base/dom.js';
 import { number } from '../language/numbers.js';
 import { tr } from '../language/texts.js';
 import { clock } from '../base/time.js';
-import { changesOf, refusalOf } from '../base/what_if.js';
+import { changesOf, refusalOf } from '../replay/changes.js';
 
 const PAUSE = 500; // between two looks for a forecast [ms]
 const MOST = 6; // forecasts side by side
