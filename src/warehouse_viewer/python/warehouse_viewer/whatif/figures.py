@@ -3,8 +3,9 @@
 
 Figures by the minute begin after the warm-up (MSER-5), at the same minute for all scenarios that
 are compared. Runs of the same seed are compared in pairs, since they draw the same random numbers.
-A difference is reported where it is above chance, or the same in all pairs; tests and intervals that are reported together
-are corrected together (Holm). Fewer than three runs have no interval, and no difference is shown.
+A difference is reported where it is above chance, or the same in all pairs; tests and intervals
+that are reported together are corrected together (Holm). Fewer than three runs have no interval,
+and no difference is shown.
 """
 
 import math
