@@ -87,11 +87,11 @@ class Replacing(unittest.TestCase):
         text = FULL.format(UNIT)
         with Collector("/warehouse/service_calls", Command) as calls:
             self.assertTrue(replace([text], models.PLACED, names).success)
-            (told,) = calls.wait_for(bool)
+            (message,) = calls.wait_for(bool)
         self.assertEqual(
-            (told.topic, told.sender), ("/gazebo/replace_models", rospy.get_name())
+            (message.topic, message.sender), ("/gazebo/replace_models", rospy.get_name())
         )
-        fields = yaml.safe_load(told.fields)
+        fields = yaml.safe_load(message.fields)
         self.assertEqual(fields["kinds"], list(models.PLACED))
         self.assertEqual(fields["names"], [*names[:20], "… and 10 more"])
         self.assertEqual(fields["documents"], [f"SDF of {len(text)} bytes"])
