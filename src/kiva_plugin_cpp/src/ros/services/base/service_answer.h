@@ -47,8 +47,8 @@ bool reply(Response& response, Body body) {
   return true;
 }
 
-/// Returns what answers requests with such responses: `body(request, response)` returns the status text.
-/// `label`: the service's name in texts.
+/// Returns what answers requests with such responses: `body(request, response)` returns the status
+/// text. `label`: the service's name in texts.
 template <typename Body>
 auto answering(const std::string& label, Body body) {
   return [label, body](auto& request, auto& response) {

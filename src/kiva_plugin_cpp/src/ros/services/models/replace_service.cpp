@@ -33,17 +33,17 @@ constexpr std::size_t kToldNames = 20;
 /// Returns a request as it is published: it may hold a whole warehouse.
 warehouse_msgs::ReplaceModels::Request toTell(
     const warehouse_msgs::ReplaceModels::Request& request) {
-  warehouse_msgs::ReplaceModels::Request told;
-  told.kinds = request.kinds;
+  warehouse_msgs::ReplaceModels::Request summary;
+  summary.kinds = request.kinds;
   const std::size_t count = std::min(request.names.size(), kToldNames);
-  told.names.assign(request.names.begin(), request.names.begin() + count);
+  summary.names.assign(request.names.begin(), request.names.begin() + count);
   if (count < request.names.size()) {
-    told.names.push_back("… and " + std::to_string(request.names.size() - count) + " more");
+    summary.names.push_back("… and " + std::to_string(request.names.size() - count) + " more");
   }
   for (const std::string& text : request.documents) {
-    told.documents.push_back("SDF of " + std::to_string(text.size()) + " bytes");
+    summary.documents.push_back("SDF of " + std::to_string(text.size()) + " bytes");
   }
-  return told;
+  return summary;
 }
 
 void checkCaller(const std::function<bool()>& is_abandoned) {
