@@ -9,7 +9,7 @@ from typing import NamedTuple
 from warehouse_viewer.watch.alarm_book import OF_ROBOT, Trouble
 from warehouse_viewer.watch.alarm_kinds import KINDS
 from warehouse_viewer.watch.reasons import Reasons
-from warehouse_viewer.watch.troubles import patience
+from warehouse_viewer.watch.troubles import QUEUED, patience
 
 SHOWN = 6  # robots that a consequence names
 MINUTE = 60.0  # [s]
@@ -70,7 +70,8 @@ def _waits_by_root(
     rest: list[Trouble], causes: dict[str, Trouble], reasons: Reasons, now: float
 ) -> list[Trouble]:
     """Leaves out robots that wait for one at fault, or for one that was at fault until a moment
-    ago: what has waited for it moves soon. Those that wait for a robot that a person
+    ago: what has waited for it moves soon. Behind one that works a queue moves on, and is given the
+    time of one. Those that wait for a robot that a person
     holds, or that itself waits, are one Trouble of that robot, which is added to `causes`."""
     out = []
     for trouble in rest:
@@ -80,7 +81,7 @@ def _waits_by_root(
         root = reasons.root(int(trouble.subject.removeprefix("kiva")))
         name, known = f"kiva{root}", causes.get(f"kiva{root}")
         since = max(trouble.since or 0.0, reasons.mended(root))
-        if now - since < patience(trouble.text):
+        if now - since < (QUEUED if reasons.works(root) else patience(trouble.text)):
             continue
         if known is None:
             text = f"{name} {reasons.robot(root).text}"

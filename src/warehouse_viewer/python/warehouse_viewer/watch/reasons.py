@@ -174,6 +174,10 @@ class Reasons:
         """Returns why a robot can't drive autonomously, as "broken (drive)"; else empty."""
         return self._faults.get(robot, "")
 
+    def works(self, robot: int) -> bool:
+        """Returns whether a robot drives autonomously and waits for nothing."""
+        return robot not in self._waits and not self.fault(robot)
+
     def mended(self, robot: int) -> float:
         """Returns since when a robot drives autonomously again [s]; 0 where it always has."""
         return self._mended.get(robot, 0.0)

@@ -106,6 +106,14 @@ def test_what_has_waited_for_a_repaired_robot_is_given_time():
     assert alarms[0].since == NOW + 1
 
 
+def test_a_queue_behind_a_robot_that_works_is_no_fault():
+    waits = {n: (n - 1 or 9, 700.0, "until its route is free") for n in (1, 2)}
+    _, alarms = situation(fleet(9), coordinator(waits))
+    assert alarms == []
+    _, (alarm,) = situation(fleet(9), coordinator(waits | {9: (0, 700.0, "for a free cell")}))
+    assert alarm.headline == "kiva9 waits for a free cell: 2 robots wait behind it"
+
+
 def test_a_ring_of_robots_is_one_alarm():
     waits = {n: (n % 3 + 1, 100.0, "behind another") for n in (1, 2, 3)}
     _, alarms = situation(fleet(4), coordinator(waits))
