@@ -41,7 +41,8 @@ class BuilderKilledWhileBuilding(unittest.TestCase):
 
     def build_in_vain(self):
         with self.assertRaises(rospy.ServiceException):
-            create("huge")  # which takes so long that no client is too late
+            # So large that no client is too late.
+            create("", robots=100, shelves=50_000, items=200_000)
 
 
 class Respawn(unittest.TestCase):

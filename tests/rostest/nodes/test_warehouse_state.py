@@ -7,11 +7,12 @@ import unittest
 import numpy as np
 import rospy
 import rostest
+import yaml
 from rosgraph_msgs.msg import Clock
-from rostest_support.node_test import Listener, Robot, call, create, latched
+from rostest_support.node_test import Listener, Robot, call, create, latched, wait_until
 from std_srvs.srv import Empty
 
-from warehouse_msgs.msg import KivaStatus, Lift, Station, WarehouseState
+from warehouse_msgs.msg import Command, KivaStatus, Lift, Station, WarehouseState
 from warehouse_sim.state import COMMANDS
 
 TOPIC = "/warehouse/state"
@@ -48,6 +49,17 @@ class State(unittest.TestCase):
         self.assertEqual(len(places), 5)  # of which 85 % are filled
         for unit in state.storage_units:
             self.assertIn((unit.pose.position.x, unit.pose.position.y), places)
+
+    def test_a_call_that_builds_is_told_with_its_caller(self):
+        calls = Listener("/warehouse/service_calls", Command)
+        self.addCleanup(calls.close)
+        wait_until(lambda: calls.connections() > 1, "the world and the node that builds")
+        create("mine", warehouse_id=3, robots=2, shelves=4, items=9)
+        builds = lambda: [c for c in calls.messages if c.topic.endswith("create_warehouse_models")]  # noqa: E731
+        wait_until(builds, "the call that builds")
+        (command,) = builds()
+        self.assertEqual(command.sender, rospy.get_name())
+        self.assertEqual(yaml.safe_load(command.fields)["warehouse_name"], "mine")
 
     def test_once_a_second_of_simulated_time(self):
         states = Listener(TOPIC, WarehouseState)

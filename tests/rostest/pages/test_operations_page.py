@@ -65,6 +65,17 @@ BESIDE = """(() => {
 })()"""
 
 
+# Robots that wait, by two updates with the focus on the second: its name before and after, and
+# whether that is the same link.
+WAITS = """(() => {
+  const waits = (robot) => ({ robot, since: 5 - robot, text: '' });
+  const show = (...robots) => page.shares.showWaits({ time: 9, waiting: robots.map(waits) });
+  show(1, 2);
+  const link = document.querySelector('#waiting a[href$=kiva2]');
+  link.focus();
+  show(2, 3);
+  return [link.textContent, document.activeElement.textContent, document.activeElement === link];
+})()"""
 STATE = "document.getElementById('forecast-state')"
 
 
@@ -353,6 +364,19 @@ class OperationsPage(WorkPageTest):
         self.assertIn("ROBOT_BROKEN", ask("/alarms")[1]["kinds"])
         self.assertEqual(ask("/alarms/999999/seen", {"by": "Anna"})[0], 404)
         self.assertEqual(ask("/alarms/1/seen", {"by": "x" * 61})[0], 422)
+
+    def test_7_the_focus_stays_where_the_keyboard_put_it(self):
+        """Presses a button that is disabled while its work is done; then a list changes."""
+        page = self.page
+        page.open(address() + "operations")
+        page.until(f"{HAND} && !{HAND}.disabled")
+        for _ in range(2):  # as it was, in the end
+            was = page.read(f"{HAND}.ariaPressed")
+            page.read(f"{HAND}.focus()")
+            page.type("\ue007")  # enter
+            page.until(f"{HAND}.ariaPressed !== {was!r} && !{HAND}.disabled")
+            page.until(f"document.activeElement === {HAND}")
+        self.assertEqual(page.read(WAITS), ["kiva2", "kiva2", True])
 
     def test_8_prometheus_gets_the_same_figures(self):
         status, text = fetch("metrics")

@@ -73,6 +73,17 @@ class Sheet(VehicleCase):
         wait_until(lambda: text in self.refusals(), "the event", PATIENCE)
         latched("/warehouse/vda5050", Vda5050, lambda m: m.errors == [f"factsheet: {fault}"])
 
+    def test_3_a_vehicle_larger_than_a_cell_is_refused_and_manual(self):
+        wait_until(lambda: self.state.messages[-1].automatic == 5, "five robots", PATIENCE)
+        codec = codec_for(self.VERSION)
+        sheet = json.loads(codec.encode(Factsheet(length=1.4)))
+        sheet |= {"manufacturer": "acme", "serialNumber": "7", "version": self.VERSION}
+        topic = "uagv/v2/acme/7/factsheet"
+        paho.mqtt.publish.single(topic, json.dumps(sheet), 0, True, port=self.broker.port)
+        text = "it does not fit: it is 1.4 m long, and a cell 1 m"
+        wait_until(lambda: any(text in t for t in self.refusals()), "the refusal", PATIENCE)
+        wait_until(lambda: self.state.messages[-1].automatic == 4, "it is MANUAL", PATIENCE)
+
 
 if __name__ == "__main__":
     rospy.init_node("factsheet_at_a_broker")

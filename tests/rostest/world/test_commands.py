@@ -7,6 +7,7 @@ import unittest
 
 import rospy
 import rostest
+import yaml
 from rostest_support.node_test import call
 from rostest_support.slow_subscriber import SlowSubscriber
 from rostest_support.warehouse_test import (
@@ -20,11 +21,16 @@ from rostest_support.warehouse_test import (
     world,
 )
 
-from warehouse_msgs.msg import Event, FleetState, Lift, People, Rotate
+from gazebo_msgs.srv import DeleteModel, GetWorldProperties, SpawnModel
+from warehouse_msgs.msg import Command, Event, FleetState, Lift, People, Rotate
 from warehouse_msgs.srv import Fail, FailRequest, LightCurtain, Person
 
 BURST = 10000
 FLOOD = 60000  # of answers, more than sockets hold
+MODEL = 'a: "name"'
+SDF = f"""<sdf version="1.6"><model name="far"><pose>40 40 0 0 0 0</pose><static>1</static>
+<link name="a"><collision name="b"><geometry><box><size>1 1 1</size></box></geometry></collision>
+</link></model><!-- {"long " * 100} --></sdf>"""
 
 
 class Commands(unittest.TestCase):
@@ -39,6 +45,24 @@ class Commands(unittest.TestCase):
         answer = self.commander.ask(topic, **fields)
         self.assertEqual(answer.kind, Event.REFUSED, answer)
         self.assertIn(text, answer.text)
+
+    def test_a_call_of_a_service_is_told_with_its_caller_and_fields(self):
+        calls = Collector("/warehouse/service_calls", Command)
+        call("/warehouse/fail", Fail, 1, FailRequest.MOTOR, 0.0)
+        call("/gazebo/spawn_sdf_model", SpawnModel, model_name=MODEL, model_xml=SDF)
+        self.addCleanup(call, "/gazebo/delete_model", DeleteModel, MODEL)
+        call("/gazebo/get_world_properties", GetWorldProperties)
+        call("/warehouse/fail", Fail, 1, FailRequest.REPAIRED, 0.0)
+        got = calls.wait_for(lambda messages: len(messages) > 2)
+        topics = ["/warehouse/fail", "/gazebo/spawn_sdf_model", "/warehouse/fail"]
+        self.assertEqual([each.topic for each in got], topics)
+        self.assertEqual({each.sender for each in got}, {rospy.get_name()})
+        fail, spawn, _ = (yaml.safe_load(each.fields) for each in got)
+        self.assertEqual((fail["kiva_id"], fail["kind"]), (1, FailRequest.MOTOR))
+        self.assertEqual(spawn["model_name"], MODEL)
+        self.assertEqual(spawn["model_xml"][:4], SDF[:4])
+        self.assertLess(len(spawn["model_xml"]), 300)
+        self.assertEqual(spawn["initial_pose"]["position"], {"x": 0, "y": 0, "z": 0})
 
     def stands_at(self, x, y):
         for here, there in zip(place("kiva1"), (x, y)):

@@ -3,6 +3,7 @@
 """The world's node starts, refuses what is wrong, and ends when it is told to."""
 
 import signal
+import threading
 import time
 import unittest
 from pathlib import Path
@@ -10,7 +11,7 @@ from pathlib import Path
 import rosnode
 import rospy
 import rostest
-from rostest_support.node_test import wait_until
+from rostest_support.node_test import call, wait_until
 from rostest_support.warehouse_test import (
     Commander,
     Paused,
@@ -21,6 +22,11 @@ from rostest_support.warehouse_test import (
     world,
 )
 from rostest_support.world_node import Node
+
+from warehouse_layout.file.request import Request
+from warehouse_layout.generate.generated import plan
+from warehouse_layout.models import models
+from warehouse_msgs.srv import ReplaceModels
 
 WORLDS = Path(__file__).resolve().parents[2] / "worlds"
 SIGINT_TIMEOUT = 3.0  # [s] until roslaunch would kill it
@@ -100,6 +106,27 @@ class Running(unittest.TestCase):
             for i in range(100):
                 spawn(f"kiva{i + 1}", kiva, pose(i % 10 * 2.0, i // 10 * 2.0))
             self.stops_in_time(node, signal.SIGTERM)
+
+    def test_a_large_warehouse_under_way_does_not_hold_it_up(self):
+        parts = models.of_layout(plan(Request(500, 20_000, 80_000)))
+        texts = list(map(models.document, models.batches(parts, 500)))
+        with Node() as node:
+            Paused().__enter__()
+            answers = []
+            asked = [[], [models.FLOOR], texts]
+            builder = threading.Thread(target=lambda: answers.append(self.replace(*asked)))
+            builder.start()
+            wait_until(lambda: "storage_unit100" in world().model_names, "half a warehouse")
+            self.stops_in_time(node, signal.SIGINT)
+            builder.join()
+        self.assertEqual(answers, [False])
+
+    def replace(self, *asked):
+        """Whether the world did it."""
+        try:
+            return call("/gazebo/replace_models", ReplaceModels, *asked).success
+        except rospy.ServiceException:
+            return False
 
 
 if __name__ == "__main__":

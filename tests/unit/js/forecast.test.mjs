@@ -3,7 +3,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { aheadOf, changesOf, doneBetween, pastOf, policiesOf } from '../../../src/warehouse_viewer/web/js/operations/forecast.js';
+import { aheadOf, changesOf, doneBetween, labelOf, pastOf, policiesOf } from '../../../src/warehouse_viewer/web/js/operations/forecast.js';
 
 const LAST = { interval: 60, begin: 90, end: 270, orders_completed: [1, 2, 3, 0] };
 
@@ -39,4 +39,10 @@ test('policies other than the usual can be tried, but not one that needs a file'
     default_policies: { orders: 'pile-on', units: 'nearest' },
   };
   assert.deepEqual(Object.values(policiesOf(about)).flat(), [{ text: '+0 policy orders due date', label: 'orders: due date' }]);
+});
+
+test('a point of the past counts what was done since then', () => {
+  const median = { label: 'half of the runs have' };
+  assert.equal(labelOf(median, { x: -30 }), 'done since then');
+  assert.equal(labelOf(median, { x: 30 }), 'half of the runs have');
 });

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page computes of the work: rates, lateness, where a SKU is, colours of the heat, new orders.
+// What the page computes of the work: rates, lateness, where a SKU is, colours of the heat, new orders;
+// what is told of alarms, and where the focus stays.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { AlarmVoice } from '../../../src/warehouse_viewer/web/js/base/alarm_voice.js';
+import { arrange, keepRows, whileBusy } from '../../../src/warehouse_viewer/web/js/base/dom.js';
 import { verdict } from '../../../src/warehouse_viewer/web/js/operations/figures.js';
 import { coloursOf } from '../../../src/warehouse_viewer/web/js/layers/heat.js';
 import { topOf } from '../../../src/warehouse_viewer/web/js/base/heat_scale.js';
@@ -137,4 +140,150 @@ test('an order that came while the list was read waits only if the list lacks it
     assert.equal(list.fresh, 1);
     assert.deepEqual([...list.news], [4]);
   }
+});
+
+// --- lists that change keep the focus, as far as a page without a browser can tell
+/** An element: what is taken out of its list loses the focus, as in browsers. */
+class Element {
+  constructor() {
+    Object.assign(this, { children: [], dataset: {}, disabledNow: false });
+  }
+
+  set disabled(isDisabled) {
+    this.disabledNow = isDisabled;
+    if (isDisabled && document.activeElement === this) document.activeElement = document.body;
+  }
+
+  contains(other) {
+    return other === this || this.children.some((child) => child.contains(other));
+  }
+
+  focus() {
+    document.activeElement = this;
+  }
+
+  replaceChildren(...children) {
+    if (this.contains(document.activeElement)) document.activeElement = document.body;
+    this.children = children;
+  }
+}
+
+let list;
+
+function begin() {
+  globalThis.document = { body: new Element() };
+  document.activeElement = document.body;
+  list = new Element();
+}
+
+function row() {
+  const out = new Element();
+  out.children = [new Element()]; // its link
+  return out;
+}
+
+function show(ids) {
+  keepRows(list, ids.map((id) => ({ id })), { keyOf: ({ id }) => id, create: row, show: (each, { id }) => { each.text = id; } });
+}
+
+test('a row that stays is the same one, with the focus', () => {
+  begin();
+  show([1, 2, 3]);
+  const [, second] = list.children;
+  second.children[0].focus();
+  show([2, 4]);
+  assert.equal(list.children[0], second);
+  assert.equal(document.activeElement, second.children[0]);
+  assert.deepEqual(list.children.map(({ text }) => text), [2, 4]);
+});
+
+test('a list in the same order is left alone', () => {
+  begin();
+  show([1, 2]);
+  list.replaceChildren = () => assert.fail('it was replaced');
+  show([1, 2]);
+});
+
+test('where the row with the focus goes, no other gets it', () => {
+  begin();
+  const [gone, other] = [row(), row()];
+  arrange(list, [gone, other]);
+  gone.children[0].focus();
+  arrange(list, [other]);
+  assert.equal(document.activeElement, document.body);
+});
+
+test('a button that was pressed by a key has the focus again when its work is done', async () => {
+  begin();
+  const button = new Element();
+  button.focus();
+  await assert.rejects(whileBusy([button], async () => {
+    assert.equal(document.activeElement, document.body);
+    throw new Error('refused');
+  }), /refused/);
+  assert.equal(document.activeElement, button);
+  assert.equal(button.disabledNow, false);
+});
+
+test('a person who went on meanwhile is not called back', async () => {
+  begin();
+  const [button, elsewhere] = [new Element(), new Element()];
+  button.focus();
+  await whileBusy([button], async () => elsewhere.focus());
+  assert.equal(document.activeElement, elsewhere);
+});
+
+// --- alarms are told to a screen reader, and not more often than a person listens
+let told, waiting, voice;
+
+function listen() {
+  [told, waiting] = [[], []];
+  voice = new AlarmVoice((text) => told.push(text), (act) => waiting.push(act));
+}
+
+const alarm = (id) => ({ id, title: `T${id}`, text: `x${id}`, to_do: `Do ${id}.` });
+
+test('an alarm is told once, with what to do', () => {
+  listen();
+  voice.take([alarm(1)]);
+  voice.take([alarm(1)]);
+  assert.deepEqual(told, ['Alarm: T1. x1. Do 1.']);
+});
+
+test('those that come while one is read are told together, the worst by name', () => {
+  listen();
+  voice.take([alarm(1)]);
+  voice.take([alarm(3), alarm(1)]);
+  voice.take([alarm(4), alarm(3), alarm(2), alarm(1)]);
+  assert.equal(told.length, 1);
+  waiting.shift()();
+  assert.deepEqual(told[1], 'Alarm: T4. x4. Do 4. 2 more alarms.');
+  waiting.shift()();
+  assert.equal(told.length, 2);
+});
+
+test('what is over before it could be told is not told', () => {
+  listen();
+  voice.take([alarm(1)]);
+  voice.take([alarm(2), alarm(1)]);
+  voice.take([alarm(1)]);
+  waiting.shift()();
+  assert.equal(told.length, 1);
+});
+
+test('after quiet, the next is told at once', () => {
+  listen();
+  voice.take([alarm(1)]);
+  waiting.shift()();
+  voice.take([alarm(2)]);
+  assert.deepEqual(told.at(-1), 'Alarm: T2. x2. Do 2.');
+});
+
+test('one that comes back is told again', () => {
+  listen();
+  voice.take([alarm(1)]);
+  waiting.shift()();
+  voice.take([]);
+  voice.take([alarm(1)]);
+  assert.equal(told.length, 2);
 });

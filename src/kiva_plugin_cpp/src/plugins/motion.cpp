@@ -161,7 +161,11 @@ void driveSegment(TaskView& world, Obstacles& obstacles, int i) {
   }
   if (arrived(f, i, at)) {
     setWheels(f, i, 0, 0);
-    return finishSegment(world, i);
+    finishSegment(world, i);
+    // Seen from where it believes to be, a robot that missed the code here may never find its way
+    // free.
+    if (f.localises && f.tasks[i].isHeldUp()) readCode(world, i, true);
+    return;
   }
   if (overshoots(world, i, segment, at)) {  // its motors hold it, wherever it stops
     f.setProfile(i, {at.along, 0});

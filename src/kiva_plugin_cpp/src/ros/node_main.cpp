@@ -25,6 +25,7 @@
 #include "ros/services/models/light_services.h"
 #include "ros/services/models/link_services.h"
 #include "ros/services/models/model_sources.h"
+#include "ros/services/models/replace_service.h"
 #include "ros/services/models/source_service.h"
 #include "ros/services/models/spawn_services.h"
 #include "ros/services/models/state_services.h"
@@ -129,6 +130,8 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   PerformanceTopic performance_topic(node, simulation);
   VisualizationTopics visualization_topics(root, simulation);
   ModelSources sources(settings.world_file, description);
+  // Before the spawn services, for which clients wait until the world is up.
+  ReplaceService replace_service(spawning.node(), simulation, settings.model_paths, sources);
   SpawnServices spawn_services(spawning.node(), simulation, settings.model_paths, sources);
   SourceService source_service(root, simulation, sources);
   MapService map_service(root, simulation);

@@ -11,6 +11,7 @@ from warehouse_msgs.msg import Command
 
 CALLS = "warehouse/service_calls"  # a Command each; `topic` is the name of the service
 QUEUE = 1000
+MOST_TEXT = 200  # characters of a text in a request
 
 
 class CommandServices:
@@ -49,4 +50,6 @@ def _plain(value: Any) -> Any:
         return {name: _plain(getattr(value, name)) for name in value.__slots__}
     if isinstance(value, (list, tuple, bytes)):
         return [_plain(each) for each in value]
+    if isinstance(value, str) and len(value) > MOST_TEXT:  # such as a layout's
+        return f"{value[:MOST_TEXT]}… ({len(value)} characters)"
     return value

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A client of the running world: adds and deletes models, pauses physics."""
 
+from collections.abc import Iterable
 from typing import Any
 
 from geometry_msgs.msg import Pose
@@ -15,13 +16,21 @@ from gazebo_msgs.srv import (
     SpawnModel,
 )
 from warehouse_layout.floor import poses
-from warehouse_msgs.srv import WorldSources
+from warehouse_msgs.srv import ReplaceModels, WorldSources
 
 WAIT = 30.0  # for the world to come up [s, wall]
 
 
 class EngineError(RuntimeError):
     """Raised for a refusal of the world, with its message and the model's name."""
+
+
+class UnchangedError(EngineError):
+    """Raised where the world refused a request for several models as a whole."""
+
+
+class UndoneError(EngineError):
+    """Raised where the world refused one of several models, after others were removed."""
 
 
 class Engine:
@@ -88,6 +97,18 @@ class Engine:
         answer = self._call("spawn_sdf_model", SpawnModel, name, xml, "", Pose(), "world")
         if not answer.success:
             raise EngineError(answer.status_message)
+
+    def replace(self, kinds: Iterable[str], names: Iterable[str], documents: Iterable[str]) -> None:
+        """Takes away the models of these kinds and names, and adds those of the SDF texts.
+
+        Physics has to be paused. Raises UnchangedError for a request with a fault that can be seen
+        beforehand; UndoneError where a model was refused later, and all models of `kinds` were
+        taken away.
+        """
+        asked = (list(kinds), list(names), list(documents))
+        answer = self._call("replace_models", ReplaceModels, *asked)
+        if not answer.success:
+            raise (UndoneError if answer.changed else UnchangedError)(answer.message)
 
     def delete(self, name: str) -> None:
         """Deletes a model. Raises EngineError."""

@@ -11,8 +11,8 @@ from std_msgs.msg import Header
 
 from warehouse_client import identity, survey
 from warehouse_client.build_transaction import BuildTransaction
-from warehouse_client.engine import Engine, EngineError
-from warehouse_client.warehouse_builder import UndoneError, WarehouseBuilder
+from warehouse_client.engine import Engine, EngineError, UnchangedError, UndoneError
+from warehouse_client.warehouse_builder import WarehouseBuilder
 from warehouse_layout.file.layout_file import LayoutFileError
 from warehouse_layout.file.request import FIT, Request, RequestError, resolve
 from warehouse_layout.generate.cells import Cells
@@ -82,6 +82,9 @@ class WarehouseService:
             transaction.begin(name)
             try:
                 WarehouseBuilder(engine, self._report).replace(layout)
+            except UnchangedError:
+                transaction.commit()
+                raise
             except UndoneError:
                 self._finish(transaction, "", 0, layout.floor)
                 raise
@@ -134,7 +137,7 @@ class WarehouseService:
         if not transaction.is_unfinished:
             return False
         self._report("a warehouse was left half-built; taking it away")
-        WarehouseBuilder(engine, self._report).clear(floor=False)
+        WarehouseBuilder(engine, self._report).clear()
         identity.write(self._ros, "", 0)
         transaction.commit()
         return True

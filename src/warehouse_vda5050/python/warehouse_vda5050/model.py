@@ -321,6 +321,21 @@ class LoadSet:
 
 
 @dataclass(frozen=True)
+class Lengths:
+    """The longest strings and arrays that a vehicle takes, by maxStringLens and maxArrayLens of its
+    factsheet; 0 is no limit. word: enumerations and keys; is_numeric: ids are digits alone."""
+
+    message: int = 0  # bytes
+    id: int = 0
+    is_numeric: bool = False
+    word: int = 0
+    load_id: int = 0
+    node_actions: int = 0
+    parameters: int = 0  # of an action
+    instant_actions: int = 0  # of a message
+
+
+@dataclass(frozen=True)
 class Factsheet:
     """What a kind of vehicle is and can [m, kg, s]. `load_sets` is empty where it names none;
     `silent` names fields, as in 2.1.0, that it leaves out and that have the values of here;
@@ -363,6 +378,7 @@ class Factsheet:
     faults: tuple[str, ...] = ()
     header: Header = field(default_factory=Header)
     keeps_speeds: bool = False  # whether it slows down for edges and zones with speed limits
+    lengths: Lengths = Lengths()  # that a master's messages keep to
 
 
 @dataclass(frozen=True)

@@ -74,6 +74,25 @@ class FakeWorld(FakeRos):
         self.standing |= {n: _pose(p.findtext("pose", "0 0 0 0 0 0")) for n, p in zip(names, parts)}
         return _answer()
 
+    def replace_models(self, kinds, names, documents):
+        """Refuses as a whole what stands already, and takes all of `kinds` away after a later
+        refusal."""
+        read = [list(ElementTree.fromstring(text).find("world")) for text in documents]
+        parts = {p.get("name") or p.findtext("name"): p for part in read for p in part}
+        left = {n: p for n, p in self.standing.items() if n not in names and not _is_of(kinds, n)}
+        if not left.keys().isdisjoint(parts):
+            return _replaced("one of that name stands", changed=False)
+        self.documents = [len(part) for part in read]
+        if not self.pause:
+            self.spawned_while_running += parts
+        added = {n: _pose(p.findtext("pose", "0 0 0 0 0 0")) for n, p in parts.items()}
+        if self.refuses in added:
+            kept = {n: pose for n, pose in added.items() if not _is_of(kinds, n)}
+            self.standing = left | kept
+            return _replaced(f"{self.refuses} is bad", changed=True)
+        self.standing = left | added
+        return _replaced()
+
     def delete_model(self, name):
         if name not in self.standing:
             return _answer("DeleteModel: model does not exist")
@@ -83,6 +102,10 @@ class FakeWorld(FakeRos):
                 n: p for n, p in self.standing.items() if models.kind_and_number(n)[0] != "item"
             }
         return _answer()
+
+
+def _is_of(kinds, name):
+    return models.kind_and_number(name)[0] in kinds
 
 
 def _pose(text):
@@ -105,3 +128,7 @@ class _Proxy:
 
 def _answer(error=""):
     return SimpleNamespace(success=not error, status_message=error)
+
+
+def _replaced(error="", changed=True):
+    return SimpleNamespace(success=not error, changed=changed, message=error)

@@ -49,3 +49,8 @@ def test_texts_with_signs_of_yaml_and_messages_in_messages_come_through():
     fields = yaml.safe_load(command.fields)
     assert (fields["lines"][0]["sku"], fields["lines"][0]["quantity"]) == ("sku: 'a'\n- b", 2)
     assert (fields["due"], fields["reference"]) == (90.0, "Öl #1")
+
+
+def test_a_long_text_is_cut():
+    fields = yaml.safe_load(called(SubmitOrderRequest(reference="x" * 5000)).fields)
+    assert fields["reference"] == "x" * 200 + "… (5000 characters)"

@@ -2,6 +2,7 @@
 """Building a warehouse in place of another: all of it, or none."""
 
 import re
+from types import SimpleNamespace
 
 import pytest
 from fake_world import FakeWorld
@@ -85,10 +86,11 @@ def test_no_document_is_longer_than_the_world_reads(monkeypatch):
     assert names == [["0"], ["1", "2"], ["3"], ["4", "5"], ["6"]]
 
 
-def test_a_last_batch_of_one_keeps_its_name(monkeypatch):
-    monkeypatch.setattr(warehouse_builder, "BATCH", 126)  # There are as many, and the floor.
+def test_the_world_reads_models_in_batches(monkeypatch):
+    monkeypatch.setattr(warehouse_builder, "BATCH", 50)
     world = FakeWorld()
     ask(world, "small")
+    assert world.documents == [50, 50, 28]
     assert "kiva4" in world.standing
 
 
@@ -156,16 +158,16 @@ class KilledError(BaseException):
 def killed_while_building(paused, standing=()):
     """The world as a builder leaves it that is killed with its warehouse half-built."""
     world = FakeWorld(standing=standing, paused=paused)
-    begin = world.spawn_sdf_model
+    begin = world.replace_models
 
     def killed(*_):
         world.standing |= {"storage_unit1": Pose(), "item1": Pose()}
         raise KilledError
 
-    world.spawn_sdf_model = killed
+    world.replace_models = killed
     with pytest.raises(KilledError):
         ask(world, "medium")
-    world.spawn_sdf_model = begin
+    world.replace_models = begin
     assert world.pause
     return world
 
@@ -212,22 +214,32 @@ def test_a_misspelt_size_is_told_and_the_service_comes_all_the_same():
     assert lines[0].startswith("nothing was built: 'smal' is not a preset")
 
 
-def test_long_work_tells_how_far_it_is(monkeypatch):
-    monkeypatch.setattr(warehouse_builder, "BATCH", 10)
-    lines, times = [], iter(range(10000))
+def test_long_work_is_announced(monkeypatch):
+    monkeypatch.setattr(warehouse_builder, "MANY", 128)
+    lines = []
     with Engine(FakeWorld()) as engine:
-        warehouse_builder.WarehouseBuilder(engine, lines.append, clock=lambda: next(times)).replace(
-            plan(PRESETS["small"])
-        )
-    assert lines[0] == "built 20 of 128 models"
-    assert len(lines) > 3
+        builder = warehouse_builder.WarehouseBuilder(engine, lines.append)
+        builder.replace(plan(PRESETS["small"]))
+        builder.replace(plan(PRESETS["empty"]))
+    assert lines == ["building 128 models"]
+
+
+def test_what_the_world_refuses_as_a_whole_leaves_the_warehouse_that_stands():
+    world = FakeWorld()
+    assert ask(world, "small").success
+    before, parameters = dict(world.standing), dict(world.parameters)
+    world.replace_models = lambda *_: SimpleNamespace(success=False, changed=False, message="no")
+    answer = ask(world, "medium")
+    assert (answer.success, answer.message) == (False, "no")
+    assert world.standing == before and world.parameters == parameters
+    assert not world.pause
 
 
 @pytest.mark.parametrize(
     "method, error, words",
     [
         ("wait_for_service", "ROSException", "the world does not answer: too late"),
-        ("spawn_sdf_model", "ServiceException", "spawn_sdf_model: too late"),
+        ("replace_models", "ServiceException", "replace_models: too late"),
     ],
 )
 def test_a_world_that_does_not_answer(method, error, words):

@@ -10,6 +10,7 @@ from warehouse_fleet.robots.robot_table import NOWHERE, REPORT
 from warehouse_fleet.transports.lifts import LiftOrder
 from warehouse_fleet.transports.transport_book import Kind, Step
 from warehouse_fleet.transports.unit_map import UnitPoses
+from warehouse_fleet.transports.waiting import Waiting
 from warehouse_layout.message_enums import FailureKind, RobotMode, State, Status
 
 STATION = "pick1"
@@ -163,6 +164,21 @@ def test_a_robot_that_is_broken_in_a_street_is_towed_aside(begin):
         fleet.controller.tow(2)
 
 
+def test_a_robot_waits_for_a_broken_one_that_stands_where_it_has_to_go(begin):
+    fleet = begin()
+    unit = unit_above(0)
+    fleet.reports["failures"][0] = 1 << FailureKind.MOTOR
+    assert fleet.controller.transports.submit(unit, STATION).accepted
+    for _ in range(700):
+        fleet.tick()
+    traffic = fleet.controller.traffic
+    assert traffic.robots.goal[1] == WHERE.units[unit]
+    assert traffic.all_ahead().tolist() == [NOWHERE, 0]
+    waiting = Waiting(traffic, fleet.controller.transports.book)
+    assert dict(waiting.long())[1] == "behind kiva1, which is broken"
+    assert traffic.watchdog.count == 0
+
+
 def test_an_observation_that_is_late_is_stale(begin):
     fleet = begin()
     fleet.tick()
@@ -196,3 +212,23 @@ def test_a_robot_that_is_driven_by_velocities_is_manual_until_it_is_given_back(b
     fleet.controller.set_mode(1, RobotMode.AUTOMATIC)
     fleet.tick()
     assert fleet.controller.robots.mode.tolist() == [RobotMode.AUTOMATIC] * 2
+
+
+def test_a_robot_waits_for_a_broken_one_in_the_only_way_to_its_station(begin):
+    fleet = begin()
+    unit = unit_above(1)
+    assert fleet.controller.transports.submit(unit, STATION).accepted
+    for _ in range(5):
+        fleet.tick()
+    fleet.reports["shelf_id"][1] = unit
+    fleet.tick()
+    assert fleet.step() == Step.BRINGING
+    fleet.put(0, int(next(s for s in PLAN.stations if s.name == STATION).cells[0]))
+    fleet.reports["failures"][0] = 1 << FailureKind.MOTOR
+    for _ in range(700):
+        fleet.tick()
+    traffic = fleet.controller.traffic
+    assert traffic.all_ahead().tolist() == [NOWHERE, 0]
+    waiting = Waiting(traffic, fleet.controller.transports.book)
+    assert dict(waiting.long())[1] == "behind kiva1, which is broken"
+    assert traffic.watchdog.count == 0

@@ -299,3 +299,27 @@ def test_nobody_gets_stuck_on_a_floor_that_is_slippery_in_places():
         assert not [text for text in texts if "stuck" in text]
         assert fleet.driver.collisions == 0
         assert not fleet.traffic.robots.mode.any()
+
+
+# --- codes
+
+
+def test_a_robot_that_is_held_up_reads_the_code_on_which_it_stands():
+    """Half of the codes are missed, those read are exact: of 48 robots that stop before another
+    one, a quarter have then read none, where half would have without a second look."""
+    count, way = 48, 8
+    exact = {"missed_codes": 0.5, "code_position_noise": 0.0, "code_angle_noise": 0.0}
+    world = World(realism={"localisation": {"lost_after": 100.0, **exact}})
+    rows = 2.0 * np.arange(count) - count
+    for number in range(2 * count):
+        before, row = divmod(number, count)
+        world.spawn_model("kiva", f"kiva{number + 1}", before * way, rows[row])
+    ids = np.arange(1, count + 1)
+    x, y = np.tile(np.arange(way + 1.0), count), np.repeat(rows, way + 1)
+    world.follow(ids, np.ones_like(ids), np.zeros_like(ids), np.full_like(ids, way + 1), x, y)
+    world.step(12_000)
+    fleet = world.fleet
+    assert (fleet.status[:count] == Status.BLOCKED).all()
+    believed = fleet.believed[:count]
+    wrong = np.hypot(believed[:, 0] - fleet.x[:count], believed[:, 1] - fleet.y[:count])
+    assert 4 < np.count_nonzero(wrong > 1e-4) < 19

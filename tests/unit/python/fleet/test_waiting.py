@@ -20,8 +20,8 @@ class Queue:
         self.robots = RobotTable(np.arange(1, 5))
         self.robots.busy[0] = True
 
-    def ahead_of(self, robot):
-        return robot - 1 if robot else NOWHERE
+    def all_ahead(self):
+        return np.array([NOWHERE, 0, 1, 2])
 
 
 def served(robot, station):

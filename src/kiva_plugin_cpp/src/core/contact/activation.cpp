@@ -9,6 +9,7 @@
 #include "core/motion/driving/clearance.h"
 #include "core/motion/dynamics.h"
 #include "core/motion/wheels/traction.h"
+#include "core/parallel/avx2_clone.h"
 #include "core/parallel/workers.h"
 #include "core/state/places/footprints.h"
 
@@ -145,8 +146,8 @@ void release(ContactView& world) {
 }
 
 /// Most blocks of a large fleet have no such robot, and cost little.
-__attribute__((target_clones("avx2", "default"))) void findSteppedSingly(
-    const std::uint8_t* awake, const std::int64_t* cruising, int count, std::vector<int>* robots) {
+KIVA_AVX2_CLONE void findSteppedSingly(const std::uint8_t* awake, const std::int64_t* cruising,
+                                       int count, std::vector<int>* robots) {
   constexpr int kBlock = 16;
   for (int begin = 0; begin < count; begin += kBlock) {
     const int end = std::min(begin + kBlock, count);

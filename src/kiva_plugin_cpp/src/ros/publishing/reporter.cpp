@@ -339,6 +339,7 @@ void Reporter::addLinkStates(const kiva::World& world, Snapshot* out) {
 void Reporter::addObjects(const kiva::World& world, Snapshot* out, bool at_once) {
   const bool models = world.modelsRevision() != objects_revision_;
   next_due_ = WallClock::time_point::max();
+  if (are_objects_held_ && !at_once) return;
   if (!models && world.unitsRevision() == units_revision_) return;
   const auto now = WallClock::now();
   if (!at_once && now < objects_sent_ + kObjectsInterval) {

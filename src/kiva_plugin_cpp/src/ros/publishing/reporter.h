@@ -47,6 +47,9 @@ class Reporter {
   std::uint32_t timeline() const { return timeline_; }
   /// Reports a restored world; `before` are the names of the models before it.
   void restored(const kiva::World& world, const std::vector<std::string>& before);
+  /// Keeps the messages of all objects and units back, while many models come and go, or no longer.
+  void holdObjects(bool held) { are_objects_held_ = held; }
+  bool areObjectsHeld() const { return are_objects_held_; }
   /// Calls `done`, on another thread, when everything reported so far has been written to sockets.
   void whenPublished(const kiva::World& world, std::function<void()> done);
   /// Returns the time by which afterRequests must be called even without a request.
@@ -99,6 +102,7 @@ class Reporter {
   std::uint64_t subscribed_revision_ = kNever;             ///< at that revision of their counts.
 
   std::uint64_t objects_revision_ = kNever, units_revision_ = kNever;  ///< Last sent.
+  bool are_objects_held_ = false;
   WallClock::time_point objects_sent_, next_due_;
 };
 

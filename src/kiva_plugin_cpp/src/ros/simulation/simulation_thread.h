@@ -62,6 +62,11 @@ class SimulationThread {
   /// Notes that a request changes the world. For the step thread.
   void noteChange() { changed_ = true; }
 
+  /// Keeps the messages of all objects and of the scenery back, while many models come and go, or
+  /// no longer. For the step thread, like the next one.
+  void holdObjects(bool held) { reporter_.holdObjects(held); }
+  bool areObjectsHeld() const { return reporter_.areObjectsHeld(); }
+
   /// Posts commands for the next step, without waiting for it. In lockstep the commands since the
   /// last step are sorted by robot, since several connections have no common order. Commands are
   /// refused by an event if too many are pending, or if a reset or a restore precedes that step.

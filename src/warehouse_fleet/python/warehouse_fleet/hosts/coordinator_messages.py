@@ -80,7 +80,7 @@ def state_message(
     long = waiting.long()
     state.waiting_text = [text for _, text in long]
     state.waiting_kiva = [int(robots.kiva_ids[robot]) for robot, _ in long]
-    state.waiting_for = [_id_of(controller, traffic.ahead_of(robot)) for robot, _ in long]
+    state.waiting_for = [_id_of(controller, waiting.behind(robot)) for robot, _ in long]
     state.waiting_since = [float(robots.still_since[robot]) for robot, _ in long]
     state.collisions, state.blocked = watch.collisions, traffic.blocked
     state.watchdog = traffic.watchdog.count

@@ -17,7 +17,14 @@ class Ways(NamedTuple):
 
     def are_barred(self, cells: AbstractSet[int]) -> bool:
         """Returns whether obstacles in some cells close the way in, through or out."""
-        return self.before <= cells or bool(self.lane & cells) or self.after <= cells
+        return bool(self.barring(cells))
+
+    def barring(self, cells: AbstractSet[int]) -> AbstractSet[int]:
+        """Returns those of some cells with obstacles that close the way in, through or out; empty
+        if it is open."""
+        if in_lane := self.lane & cells:
+            return in_lane
+        return next((way for way in (self.before, self.after) if way <= cells), frozenset())
 
 
 class StationWays:
@@ -25,10 +32,17 @@ class StationWays:
 
     def __init__(self, plan: FloorPlan) -> None:
         self._of = {station.name: _ways(plan, station) for station in plan.stations}
+        self._goals = {s.name: int(s.cells[s.service]) for s in plan.stations}  # service cells
 
     def are_barred(self, station: str, cells: AbstractSet[int]) -> bool:
         """Returns whether obstacles in some cells keep robots from a station, or there."""
         return bool(cells) and station in self._of and self._of[station].are_barred(cells)
+
+    def barring(self, cells: AbstractSet[int]) -> dict[int, int]:
+        """Returns {service cell: one of some cells with obstacles that bars the way there}, of the
+        stations to which or from which no way is open."""
+        barred = {self._goals[name]: ways.barring(cells) for name, ways in self._of.items()}
+        return {goal: min(by) for goal, by in barred.items() if by}
 
 
 def _ways(plan: FloorPlan, station: Station) -> Ways:

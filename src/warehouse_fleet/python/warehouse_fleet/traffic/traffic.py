@@ -20,6 +20,7 @@ from warehouse_fleet.robots.robot_table import NOWHERE, Reports, RobotTable
 from warehouse_fleet.traffic.closed_zones import ClosedZones
 from warehouse_fleet.traffic.obstacles import ObstacleLog
 from warehouse_fleet.traffic.people import zone_around
+from warehouse_fleet.traffic.station_ways import StationWays
 from warehouse_fleet.traffic.watchdog import Watchdog
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.plan_reader import is_taken
@@ -99,6 +100,7 @@ class Traffic:
         self._after = np.full(plan.passable.size, NOWHERE, np.int32)  # next cell of a lane, by cell
         for station in plan.stations:
             self._after[station.cells[:-1]] = station.cells[1:]
+        self._ways = StationWays(plan)
         self._next_map = 0.0
         self.obstacles = ObstacleLog()
         self.people_zone = np.zeros(0, np.int32)  # cells where people are or are about to be
@@ -164,24 +166,28 @@ class Traffic:
         if foreign.any():
             robots.mode[self._foreign >= FOREIGN] = MANUAL
 
-    def ahead_of(self, robot: int) -> int:
-        """Returns the robot that a robot waits for, by the plan or because it holds the next cell
-        of the lane; or NOWHERE."""
-        ahead = int(self.robots.waits_for[robot])
-        if ahead != NOWHERE or self.robots.busy[robot]:
-            return ahead
-        cell = int(self.robots.cell[robot])
-        after = int(self._after[cell]) if cell != NOWHERE else NOWHERE
-        return self.holder(after) if after != NOWHERE else NOWHERE
-
     def all_ahead(self) -> np.ndarray:
-        """Returns ahead_of() of each robot, (n,)."""
+        """Returns, (n,), the robot that each robot waits for: by the plan, because it holds the
+        next cell of the lane, or because it stands where this one has to go, or in the only way to
+        the station there; or NOWHERE."""
         robots = self.robots
         ahead = robots.waits_for.copy()
         after = np.where(robots.cell != NOWHERE, self._after[robots.cell], NOWHERE)
         asks = np.flatnonzero((ahead == NOWHERE) & ~robots.busy & (after != NOWHERE))
         ahead[asks] = self._execution.holders(after[asks])
+        self._look_for_barring(ahead)
         return ahead
+
+    def _look_for_barring(self, ahead: np.ndarray) -> None:
+        """Has robots without one `ahead` wait for that which bars their goal."""
+        robots, closed = self.robots, self._execution.closed().tolist()
+        if not closed:
+            return
+        bars = {**dict(zip(closed, closed)), **self._ways.barring(set(closed))}  # by goal
+        wait = (ahead == NOWHERE) & ~robots.busy & (robots.goal != robots.cell)
+        wait = np.flatnonzero(wait & np.isin(robots.goal, list(bars)))
+        by = self._execution.holders([bars[goal] for goal in robots.goal[wait].tolist()])
+        ahead[wait] = np.where(by != wait, by, NOWHERE)
 
     def holder(self, cell: int) -> int:
         """Returns the robot that a cell has been released to, or that stands there; or NOWHERE."""

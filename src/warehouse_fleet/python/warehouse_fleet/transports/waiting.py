@@ -38,6 +38,7 @@ class Waiting:
         by_hand: Collection[str] = frozenset(),
     ) -> None:
         self._traffic, self._robots, self._by_hand = traffic, traffic.robots, by_hand
+        self._ahead = traffic.all_ahead().tolist()
         self._of_robot = {t.robot: t for t in transports if t.robot != NOWHERE}
 
     def doing(self) -> dict[int, str]:
@@ -54,6 +55,10 @@ class Waiting:
             return mode.name.lower()
         transport = self._of_robot.get(robot)
         return DOES[transport.step] if transport else "idle"
+
+    def behind(self, robot: int) -> int:
+        """Returns the robot that a robot waits for; or NOWHERE."""
+        return self._ahead[robot]
 
     def long(self) -> list[tuple[int, str]]:
         """Returns [(robot, text)]: robots that have stood for WAITS_LONG, and the reason. Leaves
@@ -90,7 +95,7 @@ class Waiting:
     def _last_ahead(self, robot: int) -> int:
         """Returns the robot at the head of the queue in which a robot is; itself at its head."""
         passed = {robot}
-        while (ahead := self._traffic.ahead_of(robot)) != NOWHERE and ahead not in passed:
+        while (ahead := self._ahead[robot]) != NOWHERE and ahead not in passed:
             passed.add(ahead)
             robot = ahead
         return robot
@@ -99,7 +104,7 @@ class Waiting:
         """Returns why a robot waits: the queue that it is in, the robot before it, and what is
         wrong with that or with the queue's head. `station` serves the head."""
         served = bool(station)
-        ahead = self._traffic.ahead_of(robot)
+        ahead = self._ahead[robot]
         if ahead == NOWHERE:
             if self._robots.slowed_for_people[robot]:
                 return "for people on the floor"

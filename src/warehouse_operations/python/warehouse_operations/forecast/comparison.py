@@ -14,16 +14,23 @@ from warehouse_operations.reports.comparison import Estimate
 @dataclass(frozen=True)
 class Difference:
     """The effect of changes at the end: the mean over the pairs, and half of its 95 % interval
-    (paired t); NaN with too few pairs, as of an Estimate."""
+    (paired t); NaN with too few pairs, as of an Estimate. pairs: how many they are.
+
+    Equal pairs have an interval of no width, which would claim to be sure: how many they are is
+    said in its place.
+    """
 
     name: str
     without: float
     mean: float
     half: float
+    pairs: int
 
     def __str__(self) -> str:
         if np.isnan(self.half):
             return f"{self.mean:+.1f}"
+        if self.half == 0:
+            return f"{self.mean:+.1f} in all {self.pairs}"
         return f"{self.mean:+.1f} ± {self.half:.1f}"
 
 
@@ -37,7 +44,7 @@ def differences(without: Sequence[Outcome], with_: Sequence[Outcome]) -> list[Di
         ends = [[getattr(outcome, name)[-1] for outcome in pair] for pair in pairs]
         before, after = np.array(ends, float).T
         change = Estimate.of(after - before)
-        out.append(Difference(name, float(before.mean()), change.mean, change.half))
+        out.append(Difference(name, float(before.mean()), change.mean, change.half, change.count))
     return out
 
 

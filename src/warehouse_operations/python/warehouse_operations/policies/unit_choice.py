@@ -11,6 +11,8 @@ from warehouse_operations.stock.stations import WorkStation
 if TYPE_CHECKING:
     from warehouse_operations.policies.view import View
 
+LEAD_TIME = "lead time"  # of `ahead`
+
 
 class Random:
     """Chooses any unit."""
@@ -35,11 +37,11 @@ class MostLines:
 
     reach: how much longer than the nearest unit it may take [s]; None: as Whereabouts.reach says. A
     station without units on the way gets the nearest one: it stands idle until then. ahead: as
-    that of is_early(). Raises ValueError for a reach or an ahead below 0.
+    that of is_early(). Raises ValueError for a reach below 0, or an ahead that is no such one.
     """
 
-    def __init__(self, reach: float | None = None, ahead: float | None = None) -> None:
-        self.reach, self.ahead = _checked("reach", reach), _checked("ahead", ahead)
+    def __init__(self, reach: float | None = None, ahead: float | str | None = None) -> None:
+        self.reach, self.ahead = _checked("reach", reach), _checked_ahead(ahead)
 
     def is_early(self, station: WorkStation) -> bool:
         """Returns whether no unit is to be chosen yet."""
@@ -58,11 +60,11 @@ class MostLines:
 class MostWork:
     """Chooses the unit with most pieces for the station's orders and the backlog.
 
-    reach, ahead: as those of MostLines. Raises ValueError for one below 0.
+    reach, ahead: as those of MostLines. Raises ValueError for one that is neither.
     """
 
-    def __init__(self, reach: float | None = None, ahead: float | None = None) -> None:
-        self.reach, self.ahead = _checked("reach", reach), _checked("ahead", ahead)
+    def __init__(self, reach: float | None = None, ahead: float | str | None = None) -> None:
+        self.reach, self.ahead = _checked("reach", reach), _checked_ahead(ahead)
 
     def is_early(self, station: WorkStation) -> bool:
         """Returns whether no unit is to be chosen yet."""
@@ -74,16 +76,30 @@ class MostWork:
         return _most_work(_within(self.reach, seconds, view), seconds, candidates, view)
 
 
-def is_early(station: WorkStation, ahead: float | None) -> bool:
+def is_early(station: WorkStation, ahead: float | str | None) -> bool:
     """Returns whether the units at a station and on their way to it are work for longer than
-    `ahead` [s]: a later choice knows more orders. None: never."""
-    return ahead is not None and station.seconds_to_pick() > ahead
+    `ahead`: a later choice knows more orders. ahead: a time [s]; LEAD_TIME: as long as units
+    lately took there, which is the reorder point of inventory theory, with a mean deviation for
+    safety; None: never."""
+    if ahead is None:
+        return False
+    return station.seconds_to_pick() > (
+        station.lead_time.horizon if isinstance(ahead, str) else ahead
+    )
 
 
 def _checked(name: str, seconds: float | None) -> float | None:
     if seconds is not None and not seconds >= 0:
         raise ValueError(f"{name} is {seconds}; 0 s or more was expected")
     return seconds
+
+
+def _checked_ahead(ahead: float | str | None) -> float | str | None:
+    if not isinstance(ahead, str):
+        return _checked("ahead", ahead)
+    if ahead != LEAD_TIME:
+        raise ValueError(f"ahead is '{ahead}'; seconds or '{LEAD_TIME}' were expected")
+    return ahead
 
 
 def _within(reach: float | None, seconds: np.ndarray, view: "View") -> np.ndarray:

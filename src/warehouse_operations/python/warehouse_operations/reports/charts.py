@@ -13,6 +13,7 @@ from warehouse_operations.reports.comparison import Group
 
 BLOCKS = 12  # most parts of a shift: means of shorter ones show noise
 LINES = ("-", (0, (5, 1.5)), (0, (1.5, 1.2)), (0, (6, 1.5, 1.5, 1.5)))
+LABEL_ROOM = 0.65  # of the axis; a text that begins beyond would be cut, on a phone at least
 TAIL = 99.5  # percentile of the order times at which the axis ends
 
 
@@ -152,7 +153,10 @@ def _mark_quantiles(canvas: Canvas, minutes: Sequence[np.ndarray]) -> None:
             at = np.percentile(times, level)
             canvas.axes.plot(at, level, "o", ms=6, color=tokens.series(i), clip_on=False)
             text = f"{level} %: {at:.1f} min" if len(minutes) == 1 else letter(i)
-            canvas.say(at, level, text, tokens.series(i), xytext=(8, -12), fontweight="bold")
+            # Near the right edge the text stands before its mark; behind it, it would be cut.
+            has_room = at < LABEL_ROOM * canvas.axes.get_xlim()[1]
+            offset, side = ((8, -12), "left") if has_room else ((-8, 2), "right")
+            canvas.say(at, level, text, tokens.series(i), fontweight="bold", xytext=offset, ha=side)
 
 
 def _quantile(minutes: np.ndarray, level: float) -> str:

@@ -21,7 +21,11 @@ NEAR = 6.0  # cells from a station
 MARGINS = (6, 6, 22, 46)  # the lowest part is the scale's
 # Each map: words, its token, how to write the maximum.
 MAPS = {
-    "traffic": ("Loaded robots through a cell", "moving", "The busiest cell has {} loaded robots"),
+    "traffic": (
+        "Loaded robots through a cell",
+        "moving",
+        "{} loaded robots passed the busiest cell",
+    ),
     "waiting": ("Time robots stood in a cell [s]", "waiting", "Robots stand up to {} s in a cell"),
 }
 NOTE = "Triangles are stations: upright ones for picking, the others for replenishing."

@@ -81,7 +81,7 @@ def _reason(limit: Limit, then: Window) -> str:
     return {
         Limit.STATIONS: (
             f"They pick {of_bound}. Robots wait for them {waits} of their time: more robots would"
-            " bring next to nothing, more stations or quicker pickers would."
+            " bring little, more stations or quicker pickers would bring more."
         ),
         Limit.REPLENISHING: (
             f"They work {100 * then.replenishing:.0f} % of their time, while robots have nothing to"

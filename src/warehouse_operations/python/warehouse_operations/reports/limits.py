@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The limits of a warehouse over the day, for reports, sweeps, sizings and what-if.
 
-A shift is divided into windows of ten minutes, each with a limit of its own by the utilisation of
-stations and robots. The limit of the shift is that of the windows in which orders become late, else
-the one that holds longest: so an hour of peak shows in a quiet day.
+A shift is divided into windows of ten minutes, each with a limit of its own: of stations and robots
+those with the higher utilisation, which are the bottleneck (Denning and Buzen, The Operational
+Analysis of Queueing Network Models, ACM Computing Surveys 10, 1978). The limit of the shift is that
+of the windows in which orders become late, else the one that holds longest: so an hour of peak
+shows in a quiet day.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -83,6 +85,8 @@ class Window:
             return Limit.STATIONS
         if self.idle > IDLE:
             return Limit.REPLENISHING if self.replenishing >= SATURATED else Limit.ORDERS
+        if self.of_bound > self.at_work:
+            return Limit.STATIONS
         return Limit.STREETS if self.delay > HELD_UP else Limit.ROBOTS
 
 

@@ -13,6 +13,7 @@ import numpy as np
 import rospy
 from sqlalchemy.engine import Engine
 
+from warehouse_client.command_services import CommandServices
 from warehouse_msgs import msg, srv
 from warehouse_operations.fleets.availability import Availability
 from warehouse_operations.fleets.fleet_now import FleetNow
@@ -87,7 +88,7 @@ class ForecastService:
         self._topic = rospy.Publisher(
             "warehouse/forecasts", msg.ForecastResult, latch=True, queue_size=1
         )
-        rospy.Service("warehouse/forecast", srv.Forecast, self._forecast)
+        CommandServices(rospy).serve("warehouse/forecast", srv.Forecast, self._forecast)
 
     def close(self) -> None:
         """Ends the processes of a forecast."""

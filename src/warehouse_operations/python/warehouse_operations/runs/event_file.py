@@ -227,7 +227,8 @@ class _Reader:
         number = plain(value) if isinstance(value, str) else value
         whole = isinstance(number, int) and not isinstance(number, bool)
         if not whole or not number or abs(number) > MOST_ROBOTS:
-            raise self._fault("robots", f"is {shown(value)}; +4 or -2, for example, was expected")
+            text = f"is {shown(value)}; +4 or -2, for example, up to {MOST_ROBOTS}, was expected"
+            raise self._fault("robots", text)
         return int(number)
 
     def fail(self, value: Any) -> int | float:

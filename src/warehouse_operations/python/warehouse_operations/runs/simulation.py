@@ -346,7 +346,7 @@ def _simulate(
     if run.kpis["collisions"]:
         faults.append(f"{run.kpis['collisions']} collisions")
     if stuck:
-        faults.append(f"{stuck} robots are stuck")
+        faults.append(f"robots that are stuck: {stuck}")
     return run, faults
 
 

@@ -2,6 +2,7 @@
 """The visits of units that a shift requests from the fleet, and the units that are free for one."""
 
 import itertools
+import math
 from collections import Counter
 from collections.abc import Collection
 from typing import Protocol
@@ -150,13 +151,19 @@ class Visits:
         elif event.kind == Kind.RECEIVED:  # again: its unit was put back before a closed zone
             visit.lifted = None
         elif event.kind == Kind.LIFTED:
-            visit.lifted = event.stamp
-            self._floor.cells.pop(visit.unit, None)
-            self._context.journal.visit(visit)
+            self._lift(visit, event)
         elif event.kind == Kind.ARRIVED:
             self._arrive(visit, event)
         elif event.kind in ENDS:
             self._end(visit, event)
+
+    def _lift(self, visit: Visit, event: TransportEvent) -> None:
+        visit.lifted = event.stamp
+        way = self._floor.seconds_to(visit.station.name, visit.unit)  # without the queue there
+        if not visit.replenishes and math.isfinite(way):
+            visit.station.lead_time.note(event.stamp - visit.requested + way)
+        self._floor.cells.pop(visit.unit, None)
+        self._context.journal.visit(visit)
 
     def _arrive(self, visit: Visit, event: TransportEvent) -> None:
         visit.arrived = event.stamp

@@ -15,6 +15,7 @@ from warehouse_operations.stock.inventory import Bin, Inventory
 from warehouse_operations.stock.orders import Bundle, Line, Order
 from warehouse_operations.stock.settings import Settings
 from warehouse_operations.stock.totes import Totes
+from warehouse_operations.stock.travel import LeadTime
 
 
 @dataclass(eq=False)
@@ -104,6 +105,7 @@ class WorkStation:
         # Lines with pieces without a unit on its way, by (order, line).
         self.missing: dict[tuple[int, int], Line] = {}
         self.pieces = self.visits = 0  # done here
+        self.lead_time = LeadTime()  # of units brought for picking
         self.on_hands_free: list[Callable[[WorkStation], object]] = []
 
     def set_open(self, is_open: bool, now: float) -> None:

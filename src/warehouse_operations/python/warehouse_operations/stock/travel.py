@@ -2,9 +2,10 @@
 """Travel times of robots without traffic, in closed form on a floor plan.
 
 A run of n cells takes n * spacing / speed plus one start and stop (speed / acceleration); a quarter
-turn takes its time, and a start and stop more.
+turn takes its time, and a start and stop more. And the lead times of stations, as they were.
 """
 
+import math
 from collections import OrderedDict
 from collections.abc import Callable
 from typing import TypeVar
@@ -176,3 +177,27 @@ def _steps(plan: FloorPlan, keep_out: np.ndarray) -> tuple[np.ndarray, np.ndarra
     out[0, cells, headings] = to
     out[1, to, headings] = cells
     return out[0], out[1]
+
+
+class LeadTime:
+    """The lead time of a station's units as it was lately [s]: a smoothed mean, and its smoothed
+    mean deviation, with the gains of RFC 6298 (Jacobson, SIGCOMM 1988). Infinite until the first
+    unit was lifted."""
+
+    GAIN, GAIN_OF_DEVIATION = 1 / 8, 1 / 4
+
+    def __init__(self) -> None:
+        self.mean = self.deviation = math.inf
+
+    def note(self, seconds: float) -> None:
+        """Takes a unit's lead time into account [s]."""
+        if math.isinf(self.mean):
+            self.mean, self.deviation = seconds, seconds / 2
+            return
+        self.deviation += self.GAIN_OF_DEVIATION * (abs(seconds - self.mean) - self.deviation)
+        self.mean += self.GAIN * (seconds - self.mean)
+
+    @property
+    def horizon(self) -> float:
+        """How long before it is needed a unit has to be asked for [s]: most are in time then."""
+        return self.mean + self.deviation

@@ -4,7 +4,14 @@
 from typing import Any
 
 from warehouse_vda5050.codec.base import header_json, without_nothing
-from warehouse_vda5050.model import BlockingType, Factsheet, Header, LoadSet, SupportedAction
+from warehouse_vda5050.model import (
+    BlockingType,
+    Factsheet,
+    Header,
+    Lengths,
+    LoadSet,
+    SupportedAction,
+)
 from warehouse_vda5050.validation import MessageError
 from warehouse_vda5050.validation.fields import Fields
 
@@ -149,6 +156,20 @@ def read_factsheet(fields: Fields, header: Header) -> Factsheet:
         load_sets=tuple(_read_load_set(row) for row in loads.objects("loadSets", ())),
         silent=tuple(name for name in BODY if not body.has(name)),
         header=header,
+        lengths=_read_lengths(limits.object("maxStringLens") or Fields({}), lengths),
+    )
+
+
+def _read_lengths(strings: Fields, arrays: Fields) -> Lengths:
+    return Lengths(
+        message=strings.natural("msgLen", 0),
+        id=strings.natural("idLen", 0),
+        is_numeric=strings.flag("idNumericalOnly", False),
+        word=strings.natural("enumLen", 0),
+        load_id=strings.natural("loadIdLen", 0),
+        node_actions=arrays.natural("node.actions", 0),
+        parameters=arrays.natural("actions.actionsParameters", 0),
+        instant_actions=arrays.natural("instantActions", 0),
     )
 
 

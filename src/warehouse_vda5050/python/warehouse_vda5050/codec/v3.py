@@ -77,6 +77,8 @@ NAMES: dict[Kind, dict[str, str]] = {
         "heightMax": "maximumHeight",
         "maxStringLens": "maximumStringLengths",
         "msgLen": "maximumMessageLength",
+        "idLen": "maximumIdLength",
+        "loadIdLen": "maximumLoadIdLength",
         "maxArrayLens": "maximumArrayLengths",
         "minOrderInterval": "minimumOrderInterval",
         "minStateInterval": "minimumStateInterval",

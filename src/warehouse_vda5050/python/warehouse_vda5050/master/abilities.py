@@ -9,8 +9,16 @@ from typing import Any
 from warehouse_vda5050.driver import Point
 from warehouse_vda5050.master.commands import RefusedError, UnfitError
 from warehouse_vda5050.master.load_fit import OWN_TYPE, LoadChoice, UnitMeasures, choose_load
+from warehouse_vda5050.master.text_limits import nodes_within
 from warehouse_vda5050.master.whereabouts import FASTEST
-from warehouse_vda5050.model import Action, BlockingType, Factsheet, LoadSet, SupportedAction
+from warehouse_vda5050.model import (
+    Action,
+    BlockingType,
+    Factsheet,
+    Lengths,
+    LoadSet,
+    SupportedAction,
+)
 
 FASTER = 1.2  # a vehicle is at most this many times as fast as its factsheet says
 # What a lift is best sent as, from left to right.
@@ -33,7 +41,15 @@ class Abilities:
     @property
     def max_nodes(self) -> int | None:
         """The most nodes of an order; None where there is no limit."""
-        return self.sheet.max_nodes if self.sheet else None
+        if not self.sheet:
+            return None
+        within = nodes_within(self.sheet.lengths)
+        return self.sheet.max_nodes if within is None else min(self.sheet.max_nodes, within)
+
+    @property
+    def lengths(self) -> Lengths:
+        """The longest strings and arrays that it takes."""
+        return self.sheet.lengths if self.sheet else Lengths()
 
     @property
     def order_interval(self) -> float:

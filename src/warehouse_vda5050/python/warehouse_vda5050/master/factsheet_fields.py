@@ -17,6 +17,23 @@ FIELDS = (
         "protocolLimits.maxArrayLens.order.nodes, order.edges",
         "the rest of an order comes in the next update; 0 is no limit",
     ),
+    (
+        "protocolLimits.maxStringLens.idLen, idNumericalOnly, enumLen, loadIdLen",
+        "an order with a longer string, or an id that is no number, is refused by its field;"
+        " 0 is no limit",
+    ),
+    (
+        "protocolLimits.maxStringLens.msgLen",
+        "orders have as few nodes as it takes; the rest comes in updates",
+    ),
+    (
+        "protocolLimits.maxArrayLens.node.actions, actions.actionsParameters",
+        "an order with more is refused",
+    ),
+    (
+        "protocolLimits.maxArrayLens.instantActions",
+        "further ones come in the next message",
+    ),
     ("protocolLimits.timing.minOrderInterval", "orders keep it"),
     (
         "protocolFeatures.optionalParameters",

@@ -25,6 +25,7 @@ class InstantRequests:
 
     def __init__(self, run: str) -> None:
         self._run, self._count = run, 0
+        self.most = 0  # actions of a message that the vehicle takes; 0: any number
         self._pending: dict[str, _Pending] = {}
 
     def ask(self, kind: str, *parameters: tuple[str, str]) -> str:
@@ -46,6 +47,7 @@ class InstantRequests:
         """Returns the actions to send."""
         pending = [request for request in self._pending.values() if not request.is_given_up]
         due = [request for request in pending if request.due <= now]
+        due = due[: self.most or None]  # the others go with the next message
         for request in due:
             request.times, request.due = request.times + 1, now + RESEND
         return InstantActions(tuple(request.action for request in due)) if due else None

@@ -24,10 +24,11 @@ from warehouse_vda5050.master.commands import (
     UnfitError,
 )
 from warehouse_vda5050.master.instant import MOST_TIMES, RESEND, InstantRequests
+from warehouse_vda5050.master.introduction import too_large
 from warehouse_vda5050.master.journey import Journey
 from warehouse_vda5050.master.load_fit import Measure, unknown
-from warehouse_vda5050.master.introduction import too_large
 from warehouse_vda5050.master.robots_file import RemoteRobot
+from warehouse_vda5050.master.text_limits import too_long
 from warehouse_vda5050.master.vehicle_view import VehicleView
 from warehouse_vda5050.master.whereabouts import jumped, left_way, missed, square
 from warehouse_vda5050.model import (
@@ -174,8 +175,9 @@ class RemoteVehicle:
             )
         self.abilities.sheet, self._unread_sheet = sheet, ""
         self.view.speedometer.fastest = self.abilities.top_speed
+        self._instants.most = sheet.lengths.instant_actions
         if self._journey:
-            self._journey.max_nodes = sheet.max_nodes
+            self._journey.max_nodes = self.abilities.max_nodes or sheet.max_nodes
         misfit = too_large(sheet, self._grid.spacing)
         if misfit and misfit != self.view.misfit:
             self._happened(EventKind.REFUSED, f"it does not fit: {misfit}")
@@ -397,6 +399,10 @@ class RemoteVehicle:
         order = way.next_order(self._place)
         if order is not None:
             self._sent_at, self._times = now, 0
+            if why := too_long(order, self.abilities.lengths):
+                self._back_off(now)
+                self._give_up(way, f"an order that it can't take: {why}")
+                return None
         return order
 
     def _again(self, way: Journey, now: float) -> VehicleOrder | None:
@@ -490,10 +496,14 @@ class RemoteVehicle:
             references = dict(error.references)
             update = references.get("orderUpdateId", str(way.update))
             if references.get("orderId") == way.order_id and update == str(way.update):
-                wait = min(BACK_OFF[0] * 2**self._refusals, BACK_OFF[1])
-                self._refusals, self._not_before = self._refusals + 1, now + wait
+                self._back_off(now)
                 self._give_up(way, f"{error.type}: {error.description}")
                 return
+
+    def _back_off(self, now: float) -> None:
+        """Waits longer each time that an order is refused in a row."""
+        wait = min(BACK_OFF[0] * 2**self._refusals, BACK_OFF[1])
+        self._refusals, self._not_before = self._refusals + 1, now + wait
 
     # --- what befalls it
 

@@ -59,6 +59,7 @@ class ZoneDesk:
     def take_factsheet(self, sheet: Factsheet) -> None:
         """Adapts the zones to those that the vehicle keeps to."""
         self._sheet = sheet
+        self._instants.most = sheet.lengths.instant_actions
 
     def close(self, areas: Iterable[ClosedArea]) -> None:
         """Takes the closed zones of the floor as they are now."""
@@ -155,7 +156,7 @@ class ZoneDesk:
         self._times = min(self._times + 1, UNANSWERED + 1)
         if self._times == UNANSWERED:
             text = f"zone set {zones.id} was sent {UNANSWERED} times, and no state has it"
-            self._news.append(f"its zones are not answered: {text}; closed zones do not hold for it")
+            self._news.append(f"its zones are not answered: {text}; they do not hold for it")
 
     def _ask(self, action: str, name: str, now: float) -> None:
         if now >= self._ask_at:

@@ -7,6 +7,7 @@ from queue import Empty, SimpleQueue
 
 import rospy
 
+from warehouse_client.command_services import CommandServices
 from warehouse_msgs.srv import Vda5050Fault, Vda5050FaultRequest, Vda5050FaultResponse
 from warehouse_vda5050.faults import script
 from warehouse_vda5050.faults.kinds import FaultError, FaultRequest, read_request
@@ -27,7 +28,7 @@ class FaultDesk:
         self._vehicles, self._script = vehicles, script
         self._begin = 0.0  # of the script, 0 before
         self._requests: SimpleQueue[tuple[int, FaultRequest]] = SimpleQueue()
-        rospy.Service("warehouse/vda5050_fault", Vda5050Fault, self._serve)
+        CommandServices(rospy).serve("warehouse/vda5050_fault", Vda5050Fault, self._serve)
 
     def _serve(self, request: Vda5050FaultRequest) -> Vda5050FaultResponse:
         number = request.kiva_id

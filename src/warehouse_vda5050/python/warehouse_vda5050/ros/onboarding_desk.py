@@ -8,6 +8,7 @@ from typing import Any
 
 import rospy
 
+from warehouse_client.command_services import CommandServices
 from warehouse_client.engine import Engine, EngineError
 from warehouse_client.warehouse import WarehouseClient
 from warehouse_msgs.srv import (
@@ -49,8 +50,9 @@ class OnboardingDesk:
     ) -> None:
         self._post, self._file, self._warehouse = post, file, warehouse
         self._broker, self._joined, self._left = broker, joined, left
-        rospy.Service("warehouse/vda5050_onboard", Vda5050Onboard, self._on_add)
-        rospy.Service("warehouse/vda5050_remove", Vda5050Remove, self._on_remove)
+        commands = CommandServices(rospy)
+        commands.serve("warehouse/vda5050_onboard", Vda5050Onboard, self._on_add)
+        commands.serve("warehouse/vda5050_remove", Vda5050Remove, self._on_remove)
         rospy.Service("warehouse/vda5050_seen", Vda5050Seen, self._on_list)
 
     # --- in threads of rospy

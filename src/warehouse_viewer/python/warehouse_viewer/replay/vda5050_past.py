@@ -18,8 +18,8 @@ from warehouse_viewer.json_text import JSONResponse
 class Vda5050Past:
     """Serves the vehicles of a recording. Raises OSError, ValueError: what can't be read.
 
-    recorded: what `record` has written; robots: the file of vehicles that the warehouse drives, with
-    what was added and removed in the file beside it.
+    recorded: what `record` has written; robots: the file of vehicles that the warehouse drives,
+    with what was added and removed in the file beside it.
     """
 
     def __init__(self, recorded: Path, robots: Path | None) -> None:

@@ -3,6 +3,8 @@
 programs of others."""
 
 import json
+import math
+import time
 from collections.abc import Callable, Sequence
 from types import ModuleType
 from typing import Any, NamedTuple
@@ -14,7 +16,11 @@ from warehouse_client.message_check import subscribe
 from warehouse_msgs.msg import Command
 from warehouse_viewer.api.command_log import MOST_TEXT, CommandLog
 
-COORDINATOR, SHIFT = "coordinator", "operations"  # nodes that command by themselves
+# Nodes that command by themselves, or for a call that is noted already.
+SPARED = ("coordinator", "operations", "create_warehouse_service_node")
+# What programs call in a loop: a thousand times a second, and each would push out another command.
+LOOPED = ("step", "set_model_state", "set_link_state", "apply_body_wrench", "apply_joint_effort")
+AGAIN = 1.0  # from one note of such a service to the next by the same node [s, wall]
 TOPIC, SERVICE = "TOPIC", "SERVICE"  # instead of an HTTP method
 UNNAMED = "a ROS service"  # instead of a caller that did not say its name
 UNANSWERED = 0  # status: a topic has no answer, and a service's is its caller's; events have it
@@ -67,13 +73,18 @@ def _fields_of(command: Command) -> dict[str, Any] | None:
 class CommandNotes:
     """Notes each command with the node that sent it.
 
-    Those of this node are requests over HTTP, which are noted as such; those of the coordinator and
-    of the shift are no person's.
+    Those of this node are requests over HTTP, which are noted as such; those of the coordinator, of
+    the shift and of the node that builds are no person's. Of services that are called in a loop one
+    call a second is.
     """
 
-    def __init__(self, ros: ModuleType, log: CommandLog) -> None:
-        self._log = log
-        self._spared = ros.get_name(), *map(ros.resolve_name, (COORDINATOR, SHIFT))
+    def __init__(
+        self, ros: ModuleType, log: CommandLog, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._log, self._clock = log, clock
+        self._spared = ros.get_name(), *map(ros.resolve_name, SPARED)
+        self._looped = {ros.resolve_name(f"gazebo/{name}") for name in LOOPED}
+        self._noted: dict[tuple[str, str], float] = {}  # when, by node and service
 
     def note(self, heard: Heard) -> None:
         """Notes a command over a topic, unless it is one of the spared nodes'."""
@@ -81,7 +92,17 @@ class CommandNotes:
 
     def note_call(self, heard: Heard) -> None:
         """Notes a call of a service, unless it is one of the spared nodes'."""
-        self._add(SERVICE, heard)
+        if not self._repeats(heard):
+            self._add(SERVICE, heard)
+
+    def _repeats(self, heard: Heard) -> bool:
+        if heard.topic not in self._looped:
+            return False
+        key, now = (heard.sender, heard.topic), self._clock()
+        if now - self._noted.get(key, -math.inf) < AGAIN:
+            return True
+        self._noted[key] = now
+        return False
 
     def _add(self, method: str, heard: Heard) -> None:
         if heard.sender in self._spared:

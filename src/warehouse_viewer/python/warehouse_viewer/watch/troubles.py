@@ -162,7 +162,7 @@ class Moments:
         """Adds what a CoordinatorState's count of its watchdog has grown by, unless a stop explains
         it."""
         if self._watchdog is not None and count > self._watchdog and not is_expected:
-            text = f"the watchdog has acted {count} times since the coordinator began"
+            text = "a robot made no progress for 30 s, which nothing explains"
             self.add(Trouble("WATCHDOG", "watchdog", text), now)
         self._watchdog = count
 

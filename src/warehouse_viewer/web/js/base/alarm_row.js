@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The row of an alarm: cause, consequences, remedies, and who has seen it.
 
-import { make } from './dom.js';
+import { make, whileBusy } from './dom.js';
 import { ROOT } from './root.js';
 import { tr } from '../language/texts.js';
 import { lasting } from './time.js';
@@ -60,11 +60,7 @@ export class AlarmRow {
       const name = /^[a-z]+_?[a-z]*\d+$/i.test(target) ? target : '';
       if (action === 'MOMENT') return make('a', { ...about, href: `${ROOT}/#t=${since.toFixed(1)}${name ? `&see=${name}` : ''}` });
       if (action === 'SHOW') return make('a', { ...about, href: `${ROOT}/#${encodeURIComponent(target)}` });
-      const button = make('button', { ...about, type: 'button', className: 'edged', click: async () => {
-        button.disabled = true;
-        await this.apply(this.alarm, remedy);
-        button.disabled = false;
-      } });
+      const button = make('button', { ...about, type: 'button', className: 'edged', click: () => whileBusy([button], () => this.apply(this.alarm, remedy)) });
       return button;
     }));
   }

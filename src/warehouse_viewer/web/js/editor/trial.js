@@ -31,6 +31,8 @@ export class Trial {
     try {
       const answer = await send('POST', '/try', text, abort.signal);
       await linesOf(answer, (line) => this.take(line, origin));
+      // A server that ended, or was killed for want of memory, closes the answer without a word.
+      if ($('trial').dataset.phase === 'running') this.phase('failed', tr`The trial ended without a result; try again.`);
     } catch (error) {
       if (this.abort === abort) this.phase('failed', error.name === 'AbortError' ? tr`cancelled` : error.message);
     }
@@ -45,7 +47,7 @@ export class Trial {
       $('trial-bar').max = of;
       $('trial-bar').value = time;
       const queues = Object.values(waiting).reduce((a, b) => a + b, 0);
-      this.phase('running', tr`${clock(time)} of ${clock(of)}: ${pieces} pieces, ${queues} units under way`);
+      this.phase('running', tr`${clock(time)} of ${clock(of)}: ${pieces} pieces, ${queues} units at stations or on their way`);
     }
   }
 
@@ -96,7 +98,10 @@ export class Trial {
   }
 
   close() {
-    this.abort?.abort();
+    const { abort } = this;
+    // Let go of first: else run() would open the panel again, to say that it was cancelled.
+    this.abort = null;
+    abort?.abort();
     $('trial').hidden = true;
     Object.assign(this.editor, { heat: null, notes: null });
     this.editor.redrawOverlay();

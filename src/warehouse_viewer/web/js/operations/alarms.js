@@ -2,8 +2,9 @@
 // The alarms, the worst first: since when each holds, its cause, what to do, and the person that saw it.
 
 import { AlarmRow } from '../base/alarm_row.js';
+import { AlarmVoice } from '../base/alarm_voice.js';
 import { post } from '../base/api.js';
-import { $, on } from '../base/dom.js';
+import { $, arrange, on } from '../base/dom.js';
 import { knownPerson, personOf } from '../base/person.js';
 import { tr } from '../language/texts.js';
 
@@ -16,6 +17,7 @@ export class Alarms {
   /** `fail(error)` where the server refuses. */
   constructor(fail) {
     Object.assign(this, { fail, alarms: [], away: null, now: 0, rows: new Map() });
+    this.voice = new AlarmVoice((text) => { $('alarm-told').textContent = text; });
     on($('person'), 'click', () => this.ask());
     on($('alarm-past'), 'toggle', () => this.showPast());
     this.showPerson();
@@ -23,10 +25,8 @@ export class Alarms {
 
   /** All alarms of the server. */
   take(alarms) {
-    const known = new Set(this.alarms.map(({ id }) => id));
-    const [fresh] = alarms.filter(({ id }) => !known.has(id));
     this.alarms = alarms;
-    if (fresh) $('alarm-told').textContent = tr`Alarm: ${fresh.title}. ${fresh.text}. ${fresh.to_do}`;
+    this.voice.take(alarms);
     this.draw();
   }
 
@@ -47,10 +47,7 @@ export class Alarms {
     const kept = this.rows;
     this.rows = new Map(all.map((alarm) => [alarm.id, kept.get(alarm.id) ?? new AlarmRow((chosen, by) => this.see(chosen, by), (chosen, remedy) => this.apply(chosen, remedy))]));
     all.forEach((alarm) => this.rows.get(alarm.id).show(alarm, this.now));
-    const elements = [...this.rows.values()].map(({ element }) => element);
-    if (elements.some((element, i) => $('alarms').children[i] !== element) || $('alarms').children.length !== elements.length) {
-      $('alarms').replaceChildren(...elements);
-    }
+    arrange($('alarms'), [...this.rows.values()].map(({ element }) => element));
     const unseen = all.filter(({ seen_by: by }) => !by).length;
     if ($('alarm-past').open && all.length !== this.count) this.showPast();
     this.count = all.length;

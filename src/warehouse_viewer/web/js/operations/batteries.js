@@ -2,7 +2,7 @@
 // The batteries of the robots, the emptiest first; read while the section is open.
 
 import { get } from '../base/api.js';
-import { $, make, on } from '../base/dom.js';
+import { $, keepRows, make, on, setText } from '../base/dom.js';
 import { number, percent } from '../language/numbers.js';
 import { ROOT } from '../base/root.js';
 import { tr } from '../language/texts.js';
@@ -40,7 +40,8 @@ async function read() {
 function draw(robots) {
   const sorted = robots.toSorted((a, b) => a.charge - b.charge || a.id - b.id);
   $('battery-sum').textContent = summary(sorted.map(({ charge }) => charge));
-  $('battery-list').replaceChildren(...sorted.filter(({ charge }) => charge < FULL).slice(0, SHOWN).map(rowOf));
+  const used = sorted.filter(({ charge }) => charge < FULL).slice(0, SHOWN);
+  keepRows($('battery-list'), used, { keyOf: ({ id }) => id, create: newRow, show: showRow });
 }
 
 /** What the charges 0 … 1, the least first, come to. */
@@ -52,9 +53,14 @@ export function summary(charges) {
   return [tr`mean ${percent(mean)}`, tr`least ${percent(charges[0])}`, tr`${number(low)} below ${percent(LOW)}`, rest > 0 && tr`the emptiest ${SHOWN} of ${number(charges.length)}`].filter(Boolean).join(', ');
 }
 
-function rowOf({ name, charge, activity, failures }) {
-  const meter = make('meter', { min: 0, max: 1, low: LOW, optimum: 1, value: charge, ariaLabel: `${name}: ${percent(charge)}` });
-  return make('li', {}, make('a', { href: `${ROOT}/#${name}`, textContent: name }), meter,
-    make('span', { className: 'number', textContent: percent(charge) }),
-    make('span', { className: 'dim', textContent: failures.join(', ') || ACTIVITY[ACTIVITY_NAMES.indexOf(activity)] }));
+function newRow({ name }) {
+  return make('li', {}, make('a', { href: `${ROOT}/#${name}`, textContent: name }), make('meter', { min: 0, max: 1, low: LOW, optimum: 1 }),
+    make('span', { className: 'number' }), make('span', { className: 'dim' }));
+}
+
+function showRow(row, { name, charge, activity, failures }) {
+  const [, meter, text, does] = row.children;
+  Object.assign(meter, { value: charge, ariaLabel: `${name}: ${percent(charge)}` });
+  setText(text, percent(charge));
+  setText(does, failures.join(', ') || ACTIVITY[ACTIVITY_NAMES.indexOf(activity)]);
 }

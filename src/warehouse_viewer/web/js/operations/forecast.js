@@ -185,6 +185,9 @@ export class ForecastCard {
 
 const sentenceOf = (text) => `${text[0].toUpperCase()}${text.slice(1)}.`;
 
+/** What a point counts: the orders done since, where it lies in the past. */
+export const labelOf = ({ label }, { x }) => (x < 0 ? tr`done since then` : label);
+
 function look() {
   const line = { pointRadius: 0, borderWidth: 1.75 };
   return {
@@ -201,12 +204,12 @@ function look() {
       interaction: { mode: 'nearest', axis: 'x', intersect: false },
       scales: {
         x: axis(tr`minutes from now`, { ticks: { callback: (minutes) => Math.round(minutes) }, grid: { display: false }, scale: { bounds: 'ticks' } }),
-        y: axis(tr`orders done`, { ticks: { callback: (count) => number(count) }, scale: { grace: '5%' } }),
+        y: axis(tr`orders done`, { ticks: { callback: (count) => number(Math.abs(count)) }, scale: { grace: '5%' } }),
       },
       plugins: {
         legend: { display: false },
         tooltip: { backgroundColor: token('raised'), titleColor: token('text'), bodyColor: token('text'), borderColor: token('line'), borderWidth: 1, titleFont: font(), bodyFont: font(),
-          callbacks: { title: ([{ parsed }]) => tr`${Math.abs(Math.round(parsed.x))} min ${parsed.x < 0 ? tr`ago` : tr`from now`}`, label: ({ dataset, parsed }) => ` ${dataset.label}: ${number(Math.round(parsed.y))}` } },
+          callbacks: { title: ([{ parsed }]) => tr`${Math.abs(Math.round(parsed.x))} min ${parsed.x < 0 ? tr`ago` : tr`from now`}`, label: ({ dataset, parsed }) => ` ${labelOf(dataset, parsed)}: ${number(Math.abs(Math.round(parsed.y)))}` } },
       },
     },
   };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How many robots do what at a glance, what work that is, and which of them wait.
 
-import { $, make } from '../base/dom.js';
+import { $, keepRows, make, setText } from '../base/dom.js';
 import { number } from '../language/numbers.js';
 import { ROOT } from '../base/root.js';
 import { tr } from '../language/texts.js';
@@ -38,8 +38,16 @@ export class RobotShares {
   showWaits({ waiting, time }) {
     const more = waiting.length - MOST_WAITS;
     const longest = [...waiting].sort((a, b) => a.since - b.since).slice(0, MOST_WAITS);
-    $('waiting').replaceChildren(...longest.map(({ robot, since, text: why }) => (
-      make('li', {}, make('a', { href: `${ROOT}/#kiva${robot}`, textContent: `kiva${robot}` }), tr` waits ${lasting(time - since)} ${why}`))),
-    ...more > 0 ? [make('li', { className: 'dim', textContent: tr`and ${more} more` })] : []);
+    const rows = [...longest, ...more > 0 ? [{ more }] : []];
+    keepRows($('waiting'), rows, { keyOf: ({ robot }) => robot ?? 'more', create: waitRow, show: (row, wait) => {
+      const { since, text: why } = wait;
+      setText(row.lastChild, wait.more ? tr`and ${wait.more} more` : tr` waits ${lasting(time - since)} ${why}`);
+    } });
   }
+}
+
+/** A robot's link and what it waits for, or how many more do. */
+function waitRow({ robot, more }) {
+  const text = make('span');
+  return more ? make('li', { className: 'dim' }, text) : make('li', {}, make('a', { href: `${ROOT}/#kiva${robot}`, textContent: `kiva${robot}` }), text);
 }

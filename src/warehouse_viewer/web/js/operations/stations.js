@@ -3,7 +3,7 @@
 // themselves or by hand.
 
 import { put } from '../base/api.js';
-import { $, make, press } from '../base/dom.js';
+import { $, make, press, whileBusy } from '../base/dom.js';
 import { StationMode } from '../base/message_enums.js';
 import { number, percent } from '../language/numbers.js';
 import { knownPerson } from '../base/person.js';
@@ -64,16 +64,13 @@ class Row {
   }
 
   /** Each button sends both: until the server has one, the other waits. */
-  async set(open, mode) {
-    for (const button of [this.gate, this.hand]) button.disabled = true;
-    try {
+  set(open, mode) {
+    return whileBusy([this.gate, this.hand], async () => {
       const answer = await put(`/stations/${this.station.name}`, { open, mode, by: knownPerson() });
       this.choice.note({ open, mode }, performance.now());
       this.show(this.station, this.now);
       return answer;
-    } finally {
-      for (const button of [this.gate, this.hand]) button.disabled = false;
-    }
+    });
   }
 
   show(newest, now) {

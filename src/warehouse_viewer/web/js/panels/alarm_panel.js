@@ -3,7 +3,7 @@
 
 import { AlarmRow } from '../base/alarm_row.js';
 import { post } from '../base/api.js';
-import { $, make } from '../base/dom.js';
+import { $, arrange, make } from '../base/dom.js';
 import { knownPerson, personOf } from '../base/person.js';
 import { tr } from '../language/texts.js';
 
@@ -22,9 +22,8 @@ export class AlarmPanel {
     const kept = this.rows;
     this.rows = new Map(alarms.map((alarm) => [alarm.id, kept.get(alarm.id) ?? this.row()]));
     for (const alarm of alarms) this.rows.get(alarm.id).show(alarm, now);
-    const elements = [...this.rows.values()].map(({ element }) => element), { children } = $('alarms');
-    if (children.length !== elements.length || elements.some((element, i) => children[i] !== element)) $('alarms').replaceChildren(...elements);
-    $('alarms').hidden = !elements.length;
+    arrange($('alarms'), [...this.rows.values()].map(({ element }) => element));
+    $('alarms').hidden = !alarms.length;
     $('alarms').classList.add('by-cause');
   }
 

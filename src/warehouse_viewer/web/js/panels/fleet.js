@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The fleet that a coordinator drives, at a glance; nothing where none runs.
 
-import { $, make, setText } from '../base/dom.js';
+import { AlarmVoice } from '../base/alarm_voice.js';
+import { $, keepRows, make, setText } from '../base/dom.js';
 import { RobotMode } from '../base/message_enums.js';
 import { number as figure } from '../language/numbers.js';
 import { plural, tr } from '../language/texts.js';
@@ -34,6 +35,7 @@ export class FleetPanel {
   /** `select(name)` is called for a robot that was clicked. */
   constructor(select) {
     Object.assign(this, { select, fleet: null, byCause: null, alarms: null });
+    this.voice = new AlarmVoice((text) => { $('alarm-told').textContent = text; });
   }
 
   get runs() {
@@ -50,9 +52,9 @@ export class FleetPanel {
       make('dt', { textContent: what }), make('dd', { textContent: text })]));
     if (!this.alarms) this.showSentences(fleet.alarms);
     else this.byCause?.tick(fleet.time);
-    const rows = fleet.waiting.slice(0, MOST_WAITING).map((waits) => this.row(waits));
-    $('waiting').replaceChildren(...rows);
-    $('waiting-title').hidden = rows.length === 0;
+    const waiting = fleet.waiting.slice(0, MOST_WAITING);
+    keepRows($('waiting'), waiting, { keyOf: ({ robot }) => robot, create: ({ robot }) => this.row(robot), show: (row, waits) => setText(row, this.textOf(waits)) });
+    $('waiting-title').hidden = waiting.length === 0;
   }
 
   /** What the coordinator says, where nothing joins it by cause: in a recording. */
@@ -65,6 +67,7 @@ export class FleetPanel {
   /** The server's alarms, by cause; null: it has none, as in a recording. */
   async takeAlarms(alarms) {
     this.alarms = alarms;
+    if (alarms) this.voice.take(alarms);
     const count = alarms?.length ?? 0;
     $('alarm-number').hidden = !count;
     setText($('alarm-number'), String(count));
@@ -79,9 +82,12 @@ export class FleetPanel {
     this.byCause.take(this.alarms, this.fleet?.time ?? 0);
   }
 
-  row({ robot, since, text: reason }) {
-    const text = tr`kiva${robot} waits ${reason}, for ${lasting(this.fleet.time - since)}`;
-    return make('button', { textContent: text, click: () => this.select(`kiva${robot}`) });
+  row(robot) {
+    return make('button', { click: () => this.select(`kiva${robot}`) });
+  }
+
+  textOf({ robot, since, text: reason }) {
+    return tr`kiva${robot} waits ${reason}, for ${lasting(this.fleet.time - since)}`;
   }
 
   /** Who commands a robot, by its id; null where no coordinator runs. */

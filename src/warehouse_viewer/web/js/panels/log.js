@@ -16,6 +16,7 @@ export class EventLog {
     this.own = { name: null, events: [] }; // older ones of the selected, which the server keeps
     this.lastId = 0;
     on($('trouble'), 'change', () => this.drawAll());
+    for (const id of ['events', 'own-events']) on($(id), 'keydown', walk);
   }
 
   /** Adds new events; a server that was restarted counts from 1 again. */
@@ -25,7 +26,10 @@ export class EventLog {
     this.events = [...this.events, ...events].slice(-KEPT);
     const box = $('events');
     for (const event of events.filter(wanted)) box.prepend(this.line(event));
-    while (box.children.length > SHOWN) box.lastChild.remove();
+    while (box.children.length > SHOWN) {
+      if (box.lastChild === document.activeElement) box.focus();
+      box.lastChild.remove();
+    }
   }
 
   /** Shows these events and no other. */
@@ -57,12 +61,23 @@ export class EventLog {
 
   line({ time, kind, model, other, text }) {
     const words = shownName(text.includes(other) ? text : [other, text].filter(Boolean).join(': ')).replace(/^(done|lifted|repaired|broken): /, '');
-    const out = make('li', { click: () => this.select(model), title: words },
+    const out = make('li', { click: () => this.select(model), title: words, tabIndex: -1 },
       make('span', { textContent: clock(time) }), make('span', { textContent: EVENTS[kind] ?? kind }),
       make('span', { textContent: shownName(model) }), make('span', { textContent: words }));
     if (isTrouble(kind)) out.dataset.trouble = '';
     return out;
   }
+}
+
+/** Arrow keys go from line to line, Enter selects as a click does. */
+function walk(event) {
+  const { key, currentTarget: list } = event, lines = [...list.children], at = lines.indexOf(document.activeElement);
+  const to = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: lines.length - 1 }[key];
+  if (key === 'Enter' && at >= 0) lines[at].click();
+  else if (lines[to]) lines[to].focus();
+  else return;
+  event.preventDefault();
+  event.stopPropagation(); // these keys move the selection elsewhere
 }
 
 function wanted({ kind }) {

@@ -59,6 +59,7 @@ export class Card {
     this.buttons.cancel.hidden = !runs;
     this.buttons.change.hidden = this.buttons.duplicate.hidden = scenario.state === 'wrong';
     this.buttons.change.disabled = this.buttons.rename.disabled = runs;
+    this.buttons.change.title = this.buttons.rename.title = runs ? tr`Its runs are under way: wait for them, or cancel them.` : '';
   }
 
   showFigures(summary) {

@@ -11,8 +11,11 @@ const SIDES = ['first', 'second'];
 const PRESETS = ['small', 'medium'];
 
 export class Intro {
-  /** start(pairs): makes [name, settings] of both, runs and compares them. */
-  constructor(about, start) {
+  /**
+   * start(pairs): makes [name, settings] of both, runs and compares them.
+   * mended(): called as soon as the form changes, so that an earlier refusal goes.
+   */
+  constructor(about, start, mended) {
     this.about = about;
     this.offer();
     SIDES.forEach((side, i) => { $(`${side}-layout`).value = PRESETS[i]; });
@@ -23,7 +26,10 @@ export class Intro {
       event.preventDefault();
       start(this.pairs());
     });
-    on($('intro-form'), 'input', () => this.changed());
+    on($('intro-form'), 'input', () => {
+      mended();
+      this.changed();
+    });
     this.changed();
   }
 

@@ -224,6 +224,13 @@ def test_a_closed_station_lowers_what_is_done(shift):
     assert change["pieces"].mean + change["pieces"].half < 0
 
 
+def test_equal_pairs_do_not_claim_to_be_sure(shift):
+    as_it_is = [ahead.run(a_task(shift), number) for number in range(3)]
+    two_fewer = [replace(run, done=[count - 2 for count in run.done]) for run in as_it_is]
+    change = comparison.differences(as_it_is, two_fewer)[0]
+    assert str(change) == "-2.0 in all 3"
+
+
 def test_robots_are_added_and_taken_away(shift):
     few = ahead.Ahead(a_task(shift, lines=["+0 robots -2"]), 0)
     more = ahead.Ahead(a_task(shift, lines=["+0 robots +2"]), 0)

@@ -9,6 +9,7 @@ from operations_site import site
 
 from warehouse_operations import Operations, Policies, PolicyError
 from warehouse_operations.policies import ROLES
+from warehouse_operations.stock.travel import LeadTime
 
 CHOICES = [(role, name) for role, names in ROLES.items() for name in names]
 
@@ -58,9 +59,10 @@ def test_a_class_of_ones_own(tmp_path, monkeypatch):
     assert max(len(station.orders) for station in ops.shift.picking.stations) == 3
 
 
-def test_units_are_fetched_no_further_ahead_than_told():
+@pytest.mark.parametrize("seconds, most", [(30, 0.7), ("lead time", 0.8)])
+def test_units_are_fetched_no_further_ahead_than_told(seconds, most):
     """The pieces on their way are fewer, and so are the metres that robots drive for a piece."""
-    policies = {"units": {"name": "most lines", "ahead": 30}}
+    policies = {"units": {"name": "most lines", "ahead": seconds}}
     ops = Operations(site=site(), physics=False, policies=policies)
     ahead = []
 
@@ -76,8 +78,17 @@ def test_units_are_fetched_no_further_ahead_than_told():
             s.seconds_to_pick() for s in ops.shift.picking.stations
         ),
     )
-    assert 0 < np.mean(ahead) < 0.7 * np.mean(usual_ahead)
+    assert 0 < np.mean(ahead) < most * np.mean(usual_ahead)
     assert ops.kpis()["items_picked"] > 100  # no station waits for ever
+
+
+def test_a_lead_time_follows_what_units_take():
+    lead_time = LeadTime()
+    assert lead_time.horizon == np.inf  # nothing is early before it is known
+    for seconds in [40.0, 60.0] * 50:
+        lead_time.note(seconds)
+    assert lead_time.mean == pytest.approx(50, abs=2)
+    assert lead_time.horizon == pytest.approx(60, abs=2)
 
 
 def test_an_object_decides():
@@ -107,6 +118,8 @@ def test_an_object_decides():
         ("orders: {name: pile-on, slow_lane: 1}", "unexpected keyword argument 'slow_lane'"),
         ("storage: {name: turnover classes, classes: [0.5]}", "shares above 0 that add up to 1"),
         ("replenishment: {name: threshold, begin: 0.9, stop: 0.1}", "begin 0.9 and stop 0.1"),
+        ("units: {name: most work, ahead: soon}", "ahead is 'soon'; seconds or 'lead time'"),
+        ("units: {name: most lines, ahead: .nan}", "ahead is nan; 0 s or more was expected"),
         ("batches: {name: together, most: 0}", "most is 0; 1 or more was expected"),
         ("batches: {name: together, begin: 0.9}", "begin 0.9 and stop 0.85"),
         ("- orders", "roles with a policy each were expected"),

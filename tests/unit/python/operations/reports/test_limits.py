@@ -11,7 +11,7 @@ from instance_file import write_instance
 from warehouse_operations.reports import comparison, limits, report
 from warehouse_operations.reports import front as report_front
 from warehouse_operations.reports.limits import Window, when
-from warehouse_operations.runs.simulation import Description, simulate
+from warehouse_operations.runs.simulation import Description, open_operations, simulate
 
 HOURS, QUIET, PEAK = 6, 60, 420  # orders an hour; the peak is the third and fourth hour
 
@@ -78,3 +78,24 @@ def test_spans_of_a_limit_are_told_as_times():
     parts = [window(600 * i, 99 if i in (2, 3, 8) else 20) for i in range(12)]
     assert when(parts) == "0:20 to 0:40, 1:20 to 1:30"
     assert when(parts[2:4]) == ""
+
+
+@pytest.mark.parametrize("robots, minutes", [(7, 30), (10, 30), (12, 10)])
+def test_more_of_what_is_the_limit_brings_more_than_more_of_the_other(robots, minutes):
+    """A fifth more robots, or pickers that are a fifth quicker."""
+    pieces, parts = picked(robots, minutes)
+    by_robots = picked(round(1.2 * robots), minutes)[0] - pieces
+    by_pickers = picked(robots, minutes, quicker=1.2)[0] - pieces
+    best = "the robots" if by_robots > by_pickers else "the picking stations"
+    assert limits.limit(parts) == best
+
+
+def picked(robots, minutes, quicker=1.0):
+    """The pieces of a shift with orders that never run out, and its Windows."""
+    with open_operations(Description("medium", robots=robots, physics=False)) as ops:
+        for station in ops.shift.stations:
+            if station.picks:
+                station.set_pace(station.seconds_a_piece / quicker)
+        ops.run(minutes=minutes)
+        series = ops.log.series
+        return ops.kpis()["items_picked"], limits.windows_of(series, [0] * minutes)

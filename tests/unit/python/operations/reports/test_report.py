@@ -16,10 +16,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from instance_file import write_instance
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 from paths import ROOT
 
 from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_operations import Settings
+from warehouse_operations.document import canvas
 from warehouse_operations.reports import bar_charts, charts, comparison, report
 from warehouse_operations.runs import run_files as runs
 from warehouse_operations.runs import sweep
@@ -242,6 +245,20 @@ def fake(label, seed, value):
     intervals = {"seconds": 60.0, "picked": []}
     data = {"config": {"site": "x", "orders": label}, "seed": seed, "intervals": intervals}
     return runs.Run(Path(label), kpis, data)
+
+
+@pytest.mark.parametrize("width", [canvas.WIDE, canvas.NARROW])
+@pytest.mark.parametrize("slow", [1, 100])
+def test_texts_of_the_times_of_orders_are_not_cut(width, slow):
+    run = fake("a", 1, 1.0)
+    run.data["turnover_s"] = [60.0 + 10 * i for i in range(30)] + [400.0 * slow] * 2
+    chart = charts.turnover(comparison.grouped([run]))
+    figure = Figure(figsize=(width / 72, 210 / 72))
+    drawn = canvas.on(figure, (0, 0, width, 210), (48, 16, 30, 40))
+    chart.draw(drawn)
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    texts = [text.get_window_extent(renderer) for text in drawn.axes.texts]
+    assert len(texts) == 2 and all(box.x0 >= 0 and box.x1 <= figure.bbox.x1 for box in texts)
 
 
 def test_intervals_and_differences_are_students():

@@ -245,6 +245,36 @@ def test_a_trial_can_be_given_up(page):
     page.until("document.getElementById('trial-told').textContent === 'cancelled'")
 
 
+def test_a_trial_that_is_closed_while_it_runs_stays_closed(page):
+    open_drawing(page, "huge")
+    page.click_on("try")
+    page.until("document.getElementById('trial').dataset.phase === 'running'")
+    # Records each state of the panel until the request has ended and the page has dealt with it.
+    page.read("void (window.seen = [])")
+    page.read("""void new MutationObserver(() => seen.push(document.getElementById('trial').hidden))
+        .observe(document.getElementById('trial'), { attributes: true })""")
+    page.read(
+        "void (page.trial.abort.signal.onabort = () => setTimeout(() => seen.push('over'), 300))"
+    )
+    page.click_on("trial-close")
+    page.until("seen.includes('over')")
+    assert page.read("document.getElementById('trial').hidden")
+    assert False not in page.read("seen")
+
+
+def test_a_trial_whose_server_ends_says_so(page):
+    open_drawing(page, "small")
+    page.read("""void (window.whole = window.fetch, window.fetch = async () => new Response(
+        '{"time": 1, "of": 600, "pieces": 0, "waiting": {}}\\n'))""")
+    try:
+        page.click_on("try")
+        page.until("document.getElementById('trial').dataset.phase === 'failed'")
+        words = page.read("document.getElementById('trial-told').textContent")
+        assert words == "The trial ended without a result; try again."
+    finally:
+        page.read("void (window.fetch = window.whole)")
+
+
 def test_files_are_opened_and_wrong_ones_told(page, tmp_path):
     good, bad = tmp_path / "a.layout.yaml", tmp_path / "b.layout.yaml"
     layout_file.write(generator.of_request(PRESETS["small"], "from a file"), good)

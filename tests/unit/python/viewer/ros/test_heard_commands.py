@@ -74,6 +74,24 @@ def test_a_caller_that_does_not_say_its_name_is_a_ros_service(hears_calls, log):
 
 
 def test_calls_by_the_viewer_the_shift_and_the_coordinator_are_not_noted(hears_calls, log):
-    for node in ("/viewer", "/operations", "/coordinator"):
+    for node in ("/viewer", "/operations", "/coordinator", "/create_warehouse_service_node"):
         hears_calls(Command("/warehouse/transport", node, "kiva_id: 1\n"))
     assert log.rows() == []
+
+
+def test_of_what_a_program_calls_in_a_loop_one_call_a_second_is_noted(log):
+    now, ros = [100.0], FakeRos()
+    hear_calls(ros, CommandNotes(ros, log, lambda: now[0]).note_call)
+    hears = ros.callbacks["warehouse/service_calls"]
+    for _ in range(25):
+        hears(Command("/gazebo/step", "/learner", "steps: 1\n"))
+        now[0] += 0.1
+    hears(Command("/gazebo/step", "/other", "steps: 1\n"))
+    assert [row["by"] for row in log.rows()].count("/learner") == 3
+    assert [row["by"] for row in log.rows()].count("/other") == 1
+
+
+def test_each_call_of_another_service_is_noted(hears_calls, log):
+    for robot in (1, 2, 3):
+        hears_calls(Command("/warehouse/fail", "/desk", f"kiva_id: {robot}\n"))
+    assert len(log.rows()) == 3

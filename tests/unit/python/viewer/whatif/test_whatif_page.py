@@ -16,6 +16,7 @@ PATIENCE = 300.0  # runs yield to all else that the machine has to do [s, wall]
 WHATIF = paths.ROOT / "src" / "warehouse_viewer" / "nodes" / "whatif"
 CARDS = "[...document.querySelectorAll('.scenario')].map((c) => c.dataset.name)"
 DONE = "page.scenarios?.length && page.scenarios.every((one) => one.state === 'done')"
+LOCKED = "[...document.querySelectorAll('.scenario button:disabled')].map((b) => b.title)"
 COLUMNS = "[...document.querySelectorAll('.column')].map((c) => c.textContent)"
 
 
@@ -65,6 +66,18 @@ def button(page, name, text):
     page.driver.find_element("css selector", f"button[aria-label='{label}']").click()
 
 
+def test_a_refusal_goes_when_its_field_is_mended(page):
+    refusal = "document.getElementById('told').textContent"
+    write(page, "first-robots", "1000")
+    page.driver.find_element("css selector", "#intro-form .strong").click()
+    page.until(f"{refusal}.includes('1000 robots, but there is room for 31')")
+    write(page, "first-robots", "4")
+    assert page.read(refusal) == ""
+    page.driver.find_element("id", "first-robots").clear()
+    # The server's refusal is in the console too, and is no fault of the page.
+    page.complaints()
+
+
 def test_two_layouts_are_compared(page):
     """The steps that doc/how-to/whatif.md counts; short shifts, so that the test is."""
     page.driver.find_element("css selector", "#second-layout [value=small]").click()
@@ -72,9 +85,13 @@ def test_two_layouts_are_compared(page):
     write(page, "intro-minutes", "2")
     write(page, "intro-seeds", "2")
     page.driver.find_element("css selector", "#intro-form .strong").click()
+    # What is disabled while runs are under way says why.
+    page.until(f"{LOCKED}.length > 0")
+    assert set(page.read(LOCKED)) == {"Its runs are under way: wait for them, or cancel them."}
     page.until(f"{CARDS}.length === 2")
     assert page.read(CARDS) == ["small", "small 2 robots"]
     page.until(DONE)
+    assert page.read(LOCKED) == []
     page.until("Boolean(page.comparison.figures && page.comparison.chart)")
     assert page.read(COLUMNS) == ["small", "small 2 robots"]
     rows = page.read("[...document.querySelectorAll('#table tbody th')].map((c) => c.textContent)")

@@ -11,6 +11,7 @@
 #include "core/motion/driving/speed_limits.h"
 #include "core/motion/driving/stretches.h"
 #include "core/motion/wheels/ground.h"
+#include "core/parallel/avx2_clone.h"
 #include "core/parallel/workers.h"
 #include "core/state/progress/path_progress.h"
 
@@ -137,8 +138,7 @@ __attribute__((always_inline)) inline bool advanceAll(FleetState& f, int begin, 
 
 /// Advances robots [begin, end) that cruise by one step. Returns whether one of them needs
 /// attention: its reference has ended, or `now` is the step that it waits for.
-__attribute__((target_clones("avx2", "default"))) bool advance(FleetState& f, int begin, int end,
-                                                               double dt, double now) {
+KIVA_AVX2_CLONE bool advance(FleetState& f, int begin, int end, double dt, double now) {
   return f.lag.isNone() ? advanceAll<false>(f, begin, end, dt, now)
                         : advanceAll<true>(f, begin, end, dt, now);
 }

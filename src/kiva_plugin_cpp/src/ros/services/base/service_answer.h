@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "ros/services/base/command_service.h"
+
 namespace kiva_ros {
 
 /// Refuses a request; the text is the status message that Gazebo's clients know.
@@ -57,6 +59,18 @@ ros::ServiceServer serve(ros::NodeHandle& node, const std::string& name, const s
     return answer(label, response, [&] { return std::string(body(request, response)); });
   };
   return node.advertiseService<Request, Response>(name, call);
+}
+
+/// Advertises a service as serve() does, and publishes its calls, since it changes something.
+template <typename Service, typename Body>
+ros::ServiceServer serveChange(ros::NodeHandle& node, const std::string& name,
+                               const std::string& label, Body body) {
+  using Request = typename Service::Request;
+  using Response = typename Service::Response;
+  const auto call = [label, body](const Request& request, Response& response) {
+    return answer(label, response, [&] { return std::string(body(request, response)); });
+  };
+  return serveCommand<Request, Response>(node, name, call);
 }
 
 }  // namespace kiva_ros

@@ -122,23 +122,23 @@ JointServices::JointServices(ros::NodeHandle& node, SimulationThread& simulation
                                                  });
                                                  return "GetJointProperties: got properties";
                                                }));
-  servers_.push_back(serve<SetJointProperties>(
+  servers_.push_back(serveChange<SetJointProperties>(
       node, "set_joint_properties", "SetJointProperties", [&simulation](auto& request, auto&) {
         return simulation.change([&](kiva::World& world) { return configure(world, request); });
       }));
-  servers_.push_back(serve<SetModelConfiguration>(
+  servers_.push_back(serveChange<SetModelConfiguration>(
       node, "set_model_configuration", "SetModelConfiguration",
       [&simulation](auto& request, auto&) {
         simulation.move([&](kiva::World& world) { pose(world, request); });
         return "SetModelConfiguration: success";
       }));
-  servers_.push_back(serve<ApplyJointEffort>(
+  servers_.push_back(serveChange<ApplyJointEffort>(
       node, "apply_joint_effort", "ApplyJointEffort", [&simulation](auto& request, auto&) {
         simulation.change([&](kiva::World& world) { push(world, request); });
         return "ApplyJointEffort: effort set";
       }));
-  const boost::function<bool(JointRequest::Request&, JointRequest::Response&)> clear =
-      [&simulation](JointRequest::Request& request, JointRequest::Response&) {
+  servers_.push_back(serveCommand<JointRequest::Request, JointRequest::Response>(
+      node, "clear_joint_forces", [&simulation](auto& request, auto&) {
         simulation.post([&simulation, name = request.joint_name](kiva::World& world) {
           simulation.noteChange();
           if (const auto joint = findJoint(world, name)) {
@@ -146,8 +146,7 @@ JointServices::JointServices(ros::NodeHandle& node, SimulationThread& simulation
           }
         });
         return true;
-      };
-  servers_.push_back(node.advertiseService("clear_joint_forces", clear));
+      }));
 }
 
 }  // namespace kiva_ros

@@ -71,13 +71,13 @@ LightServices::LightServices(ros::NodeHandle& node, SimulationThread& simulation
         });
         return "GetLightProperties: got properties";
       }));
-  servers_.push_back(serve<SetLightProperties>(
+  servers_.push_back(serveChange<SetLightProperties>(
       node, "set_light_properties", "SetLightProperties", [&simulation](auto& request, auto&) {
         simulation.change([&](kiva::World& world) { set(world, request); });
         return "SetLightProperties: properties set";
       }));
-  servers_.push_back(
-      serve<DeleteLight>(node, "delete_light", "DeleteLight", [&simulation](auto& request, auto&) {
+  servers_.push_back(serveChange<DeleteLight>(
+      node, "delete_light", "DeleteLight", [&simulation](auto& request, auto&) {
         simulation.change([&](kiva::World& world) {
           if (!world.removeLight(request.light_name)) {
             throw ServiceRefusal("DeleteLight: Requested light " + request.light_name +

@@ -153,7 +153,7 @@ LinkServices::LinkServices(ros::NodeHandle& node, SimulationThread& simulation)
             simulation.run([&](kiva::World& world) { return getState(world, request); });
         return "GetLinkState: got state";
       }));
-  servers_.push_back(serve<SetLinkState>(
+  servers_.push_back(serveChange<SetLinkState>(
       node, "set_link_state", "SetLinkState", [&simulation](auto& request, auto&) {
         simulation.move([&](kiva::World& world) { setState(world, request.link_state); });
         return "SetLinkState: success";
@@ -168,7 +168,7 @@ LinkServices::LinkServices(ros::NodeHandle& node, SimulationThread& simulation)
         });
         return "GetLinkProperties: got properties";
       }));
-  servers_.push_back(serve<SetLinkProperties>(
+  servers_.push_back(serveChange<SetLinkProperties>(
       node, "set_link_properties", "SetLinkProperties", [&simulation](auto& request, auto&) {
         simulation.change([&](kiva::World& world) {
           const auto [model, link] =
@@ -177,21 +177,20 @@ LinkServices::LinkServices(ros::NodeHandle& node, SimulationThread& simulation)
         });
         return "SetLinkProperties: properties set";
       }));
-  servers_.push_back(serve<ApplyBodyWrench>(
+  servers_.push_back(serveChange<ApplyBodyWrench>(
       node, "apply_body_wrench", "ApplyBodyWrench", [&simulation](auto& request, auto&) {
         simulation.change([&](kiva::World& world) { world.apply(wrenchOf(world, request)); });
         return "ApplyBodyWrench: wrench set";
       }));
-  const boost::function<bool(BodyRequest::Request&, BodyRequest::Response&)> clear =
-      [&simulation](BodyRequest::Request& request, BodyRequest::Response&) {
+  servers_.push_back(serveCommand<BodyRequest::Request, BodyRequest::Response>(
+      node, "clear_body_wrenches", [&simulation](auto& request, auto&) {
         simulation.post([&simulation, body = request.body_name](kiva::World& world) {
           simulation.noteChange();
           const auto [model, link] = findEntity(world, body).value_or(splitScoped(body));
           world.clearWrenches(model, link);
         });
         return true;
-      };
-  servers_.push_back(node.advertiseService("clear_body_wrenches", clear));
+      }));
   set_link_ = node.subscribe("set_link_state", kSetLinkQueue, &LinkServices::setByTopic, this,
                              ros::TransportHints().tcpNoDelay());
 }

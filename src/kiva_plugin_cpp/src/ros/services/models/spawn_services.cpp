@@ -57,19 +57,19 @@ SpawnServices::SpawnServices(ros::NodeHandle& node, SimulationThread& simulation
     : simulation_(simulation), model_paths_(std::move(model_paths)), sources_(sources) {
   using gazebo_msgs::SpawnModel;
   servers_.push_back(
-      serve<SpawnModel>(node, "spawn_sdf_model", "SpawnModel", [this](auto& request, auto&) {
+      serveChange<SpawnModel>(node, "spawn_sdf_model", "SpawnModel", [this](auto& request, auto&) {
         checkBytes(request.model_xml);
         return spawn(request, request.model_xml);
       }));
   servers_.push_back(
-      serve<SpawnModel>(node, "spawn_urdf_model", "SpawnModel", [this](auto& request, auto&) {
+      serveChange<SpawnModel>(node, "spawn_urdf_model", "SpawnModel", [this](auto& request, auto&) {
         checkBytes(request.model_xml);
         if (!kiva::isUrdf(request.model_xml)) {
           throw ServiceRefusal("SpawnModel: Failure - model format is not URDF.");
         }
         return spawn(request, resolvePackageUris(request.model_xml));
       }));
-  servers_.push_back(node.advertiseService("delete_model", &SpawnServices::remove, this));
+  servers_.push_back(serveCommand(node, "delete_model", &SpawnServices::remove, this));
 }
 
 std::string SpawnServices::spawn(const gazebo_msgs::SpawnModel::Request& request,
@@ -114,7 +114,7 @@ SpawnServices::Document SpawnServices::parse(const gazebo_msgs::SpawnModel::Requ
   return out;
 }
 
-bool SpawnServices::remove(gazebo_msgs::DeleteModel::Request& request,
+bool SpawnServices::remove(const gazebo_msgs::DeleteModel::Request& request,
                            gazebo_msgs::DeleteModel::Response& response) {
   return answer("DeleteModel", response, [&] {
     const auto remove = [&](kiva::World& world) { return world.remove(request.model_name); };

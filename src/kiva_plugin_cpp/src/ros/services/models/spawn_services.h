@@ -30,7 +30,7 @@ class SpawnServices {
 
  private:
   std::string spawn(const gazebo_msgs::SpawnModel::Request& request, const std::string& xml);
-  bool remove(gazebo_msgs::DeleteModel::Request& request,
+  bool remove(const gazebo_msgs::DeleteModel::Request& request,
               gazebo_msgs::DeleteModel::Response& response);
   Document parse(const gazebo_msgs::SpawnModel::Request& request, const std::string& xml);
 

@@ -45,7 +45,7 @@ StateServices::StateServices(ros::NodeHandle& root, ros::NodeHandle& node,
   servers_ = {root.advertiseService("get_model_state", &StateServices::getModel, this),
               node.advertiseService("get_model_state", &StateServices::getModel, this),
               node.advertiseService("get_model_properties", &StateServices::getProperties, this),
-              node.advertiseService("set_model_state", &StateServices::setModel, this)};
+              serveCommand(node, "set_model_state", &StateServices::setModel, this)};
   set_model_ = node.subscribe("set_model_state", kSetModelQueue, &StateServices::setModelByTopic,
                               this, ros::TransportHints().tcpNoDelay());
 }
@@ -80,7 +80,7 @@ bool StateServices::getProperties(gazebo_msgs::GetModelProperties::Request& requ
   });
 }
 
-bool StateServices::setModel(gazebo_msgs::SetModelState::Request& request,
+bool StateServices::setModel(const gazebo_msgs::SetModelState::Request& request,
                              gazebo_msgs::SetModelState::Response& response) {
   return answer("SetModelState", response, [&] {
     const gazebo_msgs::ModelState& asked = request.model_state;

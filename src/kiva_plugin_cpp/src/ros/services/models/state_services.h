@@ -26,7 +26,7 @@ class StateServices {
                 gazebo_msgs::GetModelState::Response& response);
   bool getProperties(gazebo_msgs::GetModelProperties::Request& request,
                      gazebo_msgs::GetModelProperties::Response& response);
-  bool setModel(gazebo_msgs::SetModelState::Request& request,
+  bool setModel(const gazebo_msgs::SetModelState::Request& request,
                 gazebo_msgs::SetModelState::Response& response);
   void setModelByTopic(const gazebo_msgs::ModelState& state);
 

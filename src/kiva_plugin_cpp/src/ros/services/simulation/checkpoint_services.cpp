@@ -25,12 +25,12 @@ std::string seconds(double time) {
 CheckpointServices::CheckpointServices(ros::NodeHandle& root, SimulationThread& simulation,
                                        const Options& options)
     : simulation_(simulation), options_(options), store_(options.folder, options.most_bytes) {
-  servers_ = {root.advertiseService("warehouse/checkpoint", &CheckpointServices::save, this),
-              root.advertiseService("warehouse/restore", &CheckpointServices::restore, this),
-              root.advertiseService("warehouse/undo", &CheckpointServices::undo, this)};
+  servers_ = {serveCommand(root, "warehouse/checkpoint", &CheckpointServices::save, this),
+              serveCommand(root, "warehouse/restore", &CheckpointServices::restore, this),
+              serveCommand(root, "warehouse/undo", &CheckpointServices::undo, this)};
 }
 
-bool CheckpointServices::save(Request& request, Response& response) {
+bool CheckpointServices::save(const Request& request, Response& response) {
   return reply(response, [&] {
     std::string bytes = simulation_.checkpoint();
     const std::string message = request.name + ": " + std::to_string(bytes.size()) + " bytes";
@@ -39,14 +39,14 @@ bool CheckpointServices::save(Request& request, Response& response) {
   });
 }
 
-bool CheckpointServices::restore(Request& request, Response& response) {
+bool CheckpointServices::restore(const Request& request, Response& response) {
   return reply(response, [&] {
     const double time = simulation_.restore(store_.load(request.name));
     return "back at " + seconds(time) + " of " + request.name;
   });
 }
 
-bool CheckpointServices::undo(warehouse_msgs::Undo::Request& request,
+bool CheckpointServices::undo(const warehouse_msgs::Undo::Request& request,
                               warehouse_msgs::Undo::Response& response) {
   return reply(response, [&] {
     const double time =

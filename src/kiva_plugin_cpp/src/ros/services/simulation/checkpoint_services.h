@@ -45,9 +45,9 @@ class CheckpointServices : public StepHook {
     std::string bytes;
   };
 
-  bool save(Request& request, Response& response);
-  bool restore(Request& request, Response& response);
-  bool undo(warehouse_msgs::Undo::Request& request, warehouse_msgs::Undo::Response& response);
+  bool save(const Request& request, Response& response);
+  bool restore(const Request& request, Response& response);
+  bool undo(const warehouse_msgs::Undo::Request& request, warehouse_msgs::Undo::Response& response);
   double undoHere(kiva::World& world, double seconds);
   void remember(kiva::World& world);
 

@@ -137,7 +137,7 @@ PhysicsServices::PhysicsServices(ros::NodeHandle& node, const kiva::World& world
         response.ode_config = now.ode_config;
         return "GetPhysicsProperties: got properties";
       }));
-  servers_.push_back(serve<SetPhysicsProperties>(
+  servers_.push_back(serveChange<SetPhysicsProperties>(
       node, "set_physics_properties", "SetPhysicsProperties", [this](auto& request, auto&) {
         set(request);
         offer(request);

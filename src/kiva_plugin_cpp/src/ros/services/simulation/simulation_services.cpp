@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ros/services/simulation/simulation_services.h"
 
-#include <boost/function.hpp>
-
 #include "ros/messages/convert.h"
 #include "ros/services/base/service_answer.h"
 
@@ -21,8 +19,8 @@ SimulationServices::SimulationServices(ros::NodeHandle& node, SimulationThread& 
 void SimulationServices::advertise(ros::NodeHandle& node, const std::string& name,
                                    const std::function<void()>& act) {
   using std_srvs::Empty;
-  const boost::function<bool(Empty::Request&, Empty::Response&)> serve =
-      [name, act](Empty::Request&, Empty::Response&) {
+  servers_.push_back(
+      serveCommand<Empty::Request, Empty::Response>(node, name, [name, act](auto&, auto&) {
         try {
           act();
           return true;
@@ -30,8 +28,7 @@ void SimulationServices::advertise(ros::NodeHandle& node, const std::string& nam
           ROS_ERROR("%s: %s", name.c_str(), error.what());
           return false;
         }
-      };
-  servers_.push_back(node.advertiseService<Empty::Request, Empty::Response>(name, serve));
+      }));
 }
 
 bool SimulationServices::getWorld(gazebo_msgs::GetWorldProperties::Request&,

@@ -9,10 +9,13 @@
 namespace kiva_ros {
 
 StepService::StepService(ros::NodeHandle& node, SimulationThread& simulation)
-    : simulation_(simulation), server_(node.advertiseService("step", &StepService::step, this)) {}
+    : simulation_(simulation),
+      calls_(node.resolveName("step")),
+      server_(node.advertiseService("step", &StepService::step, this)) {}
 
 bool StepService::step(
     ros::ServiceEvent<warehouse_msgs::Step::Request, warehouse_msgs::Step::Response>& call) {
+  calls_.tell(call.getCallerName(), call.getRequest());
   const ServiceCaller caller(server_.getService(), call.getConnectionHeader());
   return reply(call.getResponse(), [&] {
     const SimulationThread::Stepped now =

@@ -4,6 +4,7 @@
 #include <ros/ros.h>
 #include <warehouse_msgs/Step.h>
 
+#include "ros/services/base/command_service.h"
 #include "ros/simulation/simulation_thread.h"
 
 namespace kiva_ros {
@@ -18,6 +19,7 @@ class StepService {
   bool step(ros::ServiceEvent<warehouse_msgs::Step::Request, warehouse_msgs::Step::Response>& call);
 
   SimulationThread& simulation_;
+  CallTopic calls_;
   ros::ServiceServer server_;
 };
 

@@ -24,9 +24,9 @@ void act(kiva::World& world, const FailRequest& request) {
 
 FailureService::FailureService(ros::NodeHandle& root, SimulationThread& simulation)
     : simulation_(simulation),
-      server_(root.advertiseService("warehouse/fail", &FailureService::fail, this)) {}
+      server_(serveCommand(root, "warehouse/fail", &FailureService::fail, this)) {}
 
-bool FailureService::fail(warehouse_msgs::Fail::Request& request,
+bool FailureService::fail(const warehouse_msgs::Fail::Request& request,
                           warehouse_msgs::Fail::Response& response) {
   return reply(response, [&] {
     simulation_.change([&](kiva::World& world) { act(world, request); });

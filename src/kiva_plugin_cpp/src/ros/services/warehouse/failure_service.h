@@ -14,7 +14,7 @@ class FailureService {
   FailureService(ros::NodeHandle& root, SimulationThread& simulation);
 
  private:
-  bool fail(warehouse_msgs::Fail::Request& request, warehouse_msgs::Fail::Response& response);
+  bool fail(const warehouse_msgs::Fail::Request& request, warehouse_msgs::Fail::Response& response);
 
   SimulationThread& simulation_;
   ros::ServiceServer server_;

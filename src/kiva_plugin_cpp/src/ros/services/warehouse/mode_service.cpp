@@ -13,9 +13,9 @@ static_assert(int(kiva::kMostMode) == int(warehouse_msgs::SetRobotModeRequest::O
 
 ModeService::ModeService(ros::NodeHandle& node, SimulationThread& simulation)
     : simulation_(simulation),
-      server_(node.advertiseService("keep_robot_mode", &ModeService::keep, this)) {}
+      server_(serveCommand(node, "keep_robot_mode", &ModeService::keep, this)) {}
 
-bool ModeService::keep(Request& request, Response& response) {
+bool ModeService::keep(const Request& request, Response& response) {
   return reply(response, [&] {
     simulation_.run([&](kiva::World& world) {
       if (request.timeline != simulation_.timeline()) {

@@ -16,7 +16,7 @@ class ModeService {
  private:
   using Request = warehouse_msgs::KeepRobotMode::Request;
   using Response = warehouse_msgs::KeepRobotMode::Response;
-  bool keep(Request& request, Response& response);
+  bool keep(const Request& request, Response& response);
 
   SimulationThread& simulation_;
   ros::ServiceServer server_;

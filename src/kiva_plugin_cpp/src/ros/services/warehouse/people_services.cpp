@@ -51,11 +51,11 @@ PeopleServices::PeopleServices(ros::NodeHandle& root, SimulationThread& simulati
                                kiva::ModelPaths model_paths)
     : simulation_(simulation),
       model_paths_(std::move(model_paths)),
-      person_(root.advertiseService("warehouse/person", &PeopleServices::walk, this)),
+      person_(serveCommand(root, "warehouse/person", &PeopleServices::walk, this)),
       light_curtain_(
-          root.advertiseService("warehouse/light_curtain", &PeopleServices::setCurtain, this)) {}
+          serveCommand(root, "warehouse/light_curtain", &PeopleServices::setCurtain, this)) {}
 
-bool PeopleServices::walk(warehouse_msgs::Person::Request& request,
+bool PeopleServices::walk(const warehouse_msgs::Person::Request& request,
                           warehouse_msgs::Person::Response& response) {
   return reply(response, [&] {
     const kiva::Walk walk = walkOf(request);
@@ -73,7 +73,7 @@ bool PeopleServices::walk(warehouse_msgs::Person::Request& request,
   });
 }
 
-bool PeopleServices::setCurtain(warehouse_msgs::LightCurtain::Request& request,
+bool PeopleServices::setCurtain(const warehouse_msgs::LightCurtain::Request& request,
                                 warehouse_msgs::LightCurtain::Response& response) {
   return reply(response, [&] {
     const kiva::LightCurtain curtain{request.name, request.min_x, request.max_x, request.min_y,

@@ -17,8 +17,9 @@ class PeopleServices {
   PeopleServices(ros::NodeHandle& root, SimulationThread& simulation, kiva::ModelPaths model_paths);
 
  private:
-  bool walk(warehouse_msgs::Person::Request& request, warehouse_msgs::Person::Response& response);
-  bool setCurtain(warehouse_msgs::LightCurtain::Request& request,
+  bool walk(const warehouse_msgs::Person::Request& request,
+            warehouse_msgs::Person::Response& response);
+  bool setCurtain(const warehouse_msgs::LightCurtain::Request& request,
                   warehouse_msgs::LightCurtain::Response& response);
 
   SimulationThread& simulation_;

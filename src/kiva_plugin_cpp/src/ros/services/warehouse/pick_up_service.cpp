@@ -26,9 +26,9 @@ std::string pickUpAll(kiva::World& world) {
 
 PickUpService::PickUpService(ros::NodeHandle& root, SimulationThread& simulation)
     : simulation_(simulation),
-      server_(root.advertiseService("warehouse/pick_up", &PickUpService::pickUp, this)) {}
+      server_(serveCommand(root, "warehouse/pick_up", &PickUpService::pickUp, this)) {}
 
-bool PickUpService::pickUp(warehouse_msgs::PickUp::Request& request,
+bool PickUpService::pickUp(const warehouse_msgs::PickUp::Request& request,
                            warehouse_msgs::PickUp::Response& response) {
   return reply(response, [&] {
     std::string left;

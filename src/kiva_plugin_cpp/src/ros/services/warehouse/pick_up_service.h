@@ -14,7 +14,8 @@ class PickUpService {
   PickUpService(ros::NodeHandle& root, SimulationThread& simulation);
 
  private:
-  bool pickUp(warehouse_msgs::PickUp::Request& request, warehouse_msgs::PickUp::Response& response);
+  bool pickUp(const warehouse_msgs::PickUp::Request& request,
+              warehouse_msgs::PickUp::Response& response);
 
   SimulationThread& simulation_;
   ros::ServiceServer server_;

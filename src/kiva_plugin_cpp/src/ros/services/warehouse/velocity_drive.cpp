@@ -37,7 +37,7 @@ VelocityDrive::VelocityDrive(ros::NodeHandle& root, SimulationThread& simulation
       reporter_(reporter),
       inputs_(inputs),
       waiting_(kiva_ids.begin(), kiva_ids.end()),
-      server_(root.advertiseService("warehouse/set_cmd_vel", &VelocityDrive::set, this)) {
+      server_(serveCommand(root, "warehouse/set_cmd_vel", &VelocityDrive::set, this)) {
   subscribe(world);
 }
 
@@ -103,7 +103,7 @@ void VelocityDrive::take(kiva::World& world, int kiva_id, const geometry_msgs::T
       nameOf(kiva_id).c_str(), other.c_str());
 }
 
-bool VelocityDrive::set(Request& request, Response& response) {
+bool VelocityDrive::set(const Request& request, Response& response) {
   return reply(response, [&] {
     simulation_.change([&](kiva::World& world) {
       if (request.enable) return world.beginSteering(request.kiva_id);

@@ -37,7 +37,7 @@ class VelocityDrive : public StepHook {
     double quiet_until = 0;
   };
 
-  bool set(Request& request, Response& response);
+  bool set(const Request& request, Response& response);
   void handOver(kiva::World& world);
   void subscribe(const kiva::World& world);
   void take(kiva::World& world, int kiva_id, const geometry_msgs::Twist& twist, Rein& rein);

@@ -34,6 +34,11 @@ void VisualizationTopics::publish() {
 void VisualizationTopics::publishScenery() {
   bool changed = newcomer_.exchange(false);
   simulation_.run([this, &changed](const kiva::World& world) {
+    if (simulation_.areObjectsHeld()) {
+      newcomer_ = newcomer_ || changed;
+      changed = false;
+      return;
+    }
     const bool others = world.modelsRevision() != models_revision_;
     if (others) scenery_ = sceneryOf(world);
     changed |= others || updatePoses(world, &scenery_);

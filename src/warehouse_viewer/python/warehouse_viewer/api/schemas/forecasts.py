@@ -8,7 +8,7 @@ from pydantic import BaseModel, Field
 from warehouse_viewer.api.schemas.pydantic_versions import Body, integer, items, number, text
 
 DAY = 24 * 60  # [min]
-MOST_RUNS, MOST_CHANGES = 1000, 20
+MOST_RUNS, MOST_CHANGES = 1000, 50
 
 if TYPE_CHECKING:
     Minutes = float
