@@ -117,9 +117,7 @@ def completed(sheet: Factsheet, zones: bool = False, keeps_speeds: bool = False)
     """Returns a driver's factsheet with what the core can; zones: whether it takes zone sets.
     keeps_speeds: whether the driver slows down for speed limits."""
     parameters = PARAMETERS if keeps_speeds else tuple(map(_without_speeds, PARAMETERS))
-    sheet = replace(
-        sheet, actions=ACTIONS, parameters=parameters, keeps_speeds=keeps_speeds
-    )
+    sheet = replace(sheet, actions=ACTIONS, parameters=parameters, keeps_speeds=keeps_speeds)
     if not zones:
         return sheet
     kinds = [kind for kind in SUPPORTED if keeps_speeds or kind is not ZoneType.SPEED_LIMIT]

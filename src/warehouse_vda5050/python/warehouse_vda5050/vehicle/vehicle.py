@@ -351,8 +351,9 @@ class Vehicle:
         planned = planned_path(order, self.grid, report)
         limit, wall = self.zones.limit, self.zones.clock()
         held = self.paused or self.actions.holds_driving or bool(self.wheels.fault)
-        soon = () if held else intermediate_path(order, self.grid, report, self.sheet, limit, wall)
-        return {"planned": planned, "intermediate": soon}
+        speeds = self._speeds(order)
+        soon = intermediate_path(order, self.grid, report, self.sheet, limit, speeds, wall)
+        return {"planned": planned, "intermediate": () if held else soon}
 
     def _situation(self) -> Situation:
         return Situation(

@@ -112,9 +112,8 @@ class ZoneGuard:
 
     def _speed_on(self, stretch: Stretch) -> float:
         """Returns the highest speed on a stretch, on which the contour may enter zones [m/s]."""
-        limits = (zone.number for zone in self._zones if zone.type is ZoneType.SPEED_LIMIT
-                  and stretch.enters(zone))
-        return min(limits, default=math.inf)
+        limits = [zone for zone in self._zones if zone.type is ZoneType.SPEED_LIMIT]
+        return min((zone.number for zone in limits if stretch.enters(zone)), default=math.inf)
 
     def _limit_to(
         self, order: OrderProgress, way: Sequence[Stretch], needed: Sequence[Sequence[Zone]]

@@ -33,7 +33,10 @@ double stoppingWay(double speed, double deceleration, double dt) {
 
 /// Returns the distance before a slower way at which its limit is kept already [m].
 double marginOf(const FleetState& f, int i, double limit, double dt) {
-  const double step = (limit + f.acceleration[i] * dt) * dt;
+  // Wheels follow the reference a step later: without acceleration that is a step at full speed.
+  const double before = f.acceleration[i] > 0 ? limit + f.acceleration[i] * dt
+                                              : limit + f.robots[i].drive.speed;
+  const double step = before * dt;
   return f.lag.isNone() ? step : step + kTimeConstants * f.lag.behind * limit;
 }
 

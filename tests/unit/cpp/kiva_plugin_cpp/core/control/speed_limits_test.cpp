@@ -159,5 +159,58 @@ TEST_F(SpeedLimitTest, WhatIsNoSpeedIsRefused) {
   EXPECT_NE(refused(short_of).find("3 x and 2 max_speed"), std::string::npos);
 }
 
+/// Returns by how much a robot is faster than the limits of its ways at most [m/s].
+double excess(const Floorplan& plan, const std::string& kiva) {
+  Warehouse w(plan);
+  w.spawnText(kiva, "kiva1", 0, 0);
+  const std::vector<double> speeds{kAny, kAny, kAny, 0.2, 0.2, kAny, kAny, kAny, 0.7, 0.3, kAny};
+  FollowPath path;
+  path.kiva_id = 1;
+  path.path_id = 1;
+  for (std::size_t k = 0; k <= speeds.size(); ++k) {
+    path.x.push_back(static_cast<double>(k));
+    path.y.push_back(0);
+    path.max_speed.push_back(k == 0 ? kAny : speeds[k - 1]);
+  }
+  path.released = static_cast<std::uint32_t>(path.x.size());
+  w.world.post(path);
+  double most = -kTop;
+  w.runUntil([&] { return w.status(1) == Status::kIdle && w.x(1) > 1; }, 120, [&] {
+    const auto way = static_cast<std::size_t>(std::clamp(std::floor(w.x(1)), 0.0, 10.0));
+    most = std::max(most, w.speed(1) - speeds[way]);
+  });
+  EXPECT_NEAR(w.x(1), 11, 0.02);
+  return most;
+}
+
+Floorplan planWith(double step, const Realism& realism) {
+  Floorplan plan{60, 1, step};
+  plan.options.realism = realism;
+  return plan;
+}
+
+TEST(SpeedLimitOfRealRobots, IsKeptByAllDrives) {
+  const std::string kiva = modelText("kiva");
+  EXPECT_LT(excess(Floorplan{60, 1, 0.01}, kiva), kExact);
+  EXPECT_LT(excess({}, abruptKiva()), kExact);
+  EXPECT_LT(excess({}, kivaText({{"drive", "jointed"}})), 0.02);
+}
+
+TEST(SpeedLimitOfRealRobots, IsKeptByMotorsThatLag) {
+  Realism lagging;
+  lagging.actuation = {true, 0.1, 0, 0};
+  for (const double step : {0.001, 0.01}) {
+    EXPECT_LT(excess(planWith(step, lagging), modelText("kiva")), 0.02) << step;
+  }
+}
+
+TEST(SpeedLimitOfRealRobots, IsKeptByRobotsThatReckonWhereTheyAre) {
+  Realism reckoning;
+  reckoning.localisation.enabled = true;
+  for (const double step : {0.001, 0.01}) {
+    EXPECT_LT(excess(planWith(step, reckoning), modelText("kiva")), 0.02) << step;
+  }
+}
+
 }  // namespace
 }  // namespace kiva::test
