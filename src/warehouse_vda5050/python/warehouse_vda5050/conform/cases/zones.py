@@ -21,7 +21,7 @@ case = chapter.case
 ONLY = ("3.0.0",)
 HALF = 0.15  # half a side of a zone around a place, as a share of the edge
 PAST = "2020-01-01T00:00:00.000Z"
-SLOW = 0.3  # [m/s]
+SLOW = 0.2  # [m/s]
 NONE_KNOW = ("COORDINATED_REPLANNING", "ACTION", "PENALTY", "PRIORITY", "SPEED_LIMIT")
 
 
