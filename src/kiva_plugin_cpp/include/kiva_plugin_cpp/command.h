@@ -46,7 +46,7 @@ struct FollowPath {
   /// Highest speed on the way to each of these points from the one before [m/s]: above 0, +inf = as
   /// fast as the robot is. Empty: known points keep theirs, and new ones have no limit.
   std::vector<double> max_speed;
-  std::string fault;           ///< If not empty, the path is refused for this reason.
+  std::string fault;  ///< If not empty, the path is refused for this reason.
 };
 
 /// How two bodies met.

@@ -151,8 +151,8 @@ def _legs(points: Sequence[Point], limits: Sequence[float], motion: Motion) -> l
     """Returns a way's straight pieces of one limit; those of one line have the same heading."""
     legs: list[_Leg] = []
     start = points[0]
-    for point, limit in zip(points[1:], limits):
-        length, limit = math.dist(start, point), min(limit, motion.speed)
+    for point, speed in zip(points[1:], limits):
+        length, limit = math.dist(start, point), min(speed, motion.speed)
         if length < 1e-6:
             continue
         heading = math.atan2(point[1] - start[1], point[0] - start[0])
@@ -173,9 +173,9 @@ def _times(legs: Sequence[_Leg], speed: float, motion: Motion) -> list[float]:
     for leg in reversed(legs[1:]):
         ends.append(min(leg.limit, math.sqrt(ends[-1] ** 2 + 2 * down * leg.length)))
     times = []
-    for leg, end in zip(legs, reversed(ends)):
+    for leg, slowed in zip(legs, reversed(ends)):
         speed = min(speed, leg.limit)
-        end = min(end, leg.limit, math.sqrt(speed * speed + 2 * up * leg.length))
+        end = min(slowed, leg.limit, math.sqrt(speed * speed + 2 * up * leg.length))
         # The speed at which braking begins, if the piece is too short for its limit.
         peak = (2 * up * down * leg.length + down * speed**2 + up * end**2) / (up + down)
         peak = max(speed, end, min(math.sqrt(peak), leg.limit))

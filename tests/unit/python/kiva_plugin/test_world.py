@@ -171,7 +171,11 @@ WRONG = [
     (lambda w: w.follow(1, -1, x=[0], y=[0]), ValueError, "path_id: .* negative"),
     (lambda w: w.follow(1, 1, x=[0, 1], y=[0]), ValueError, "y has 1 entries, and points make 2"),
     (lambda w: w.follow(1, 1, x=[np.nan], y=[0]), ValueError, "x of command 0 is nan"),
-    (lambda w: w.follow(1, 1, x=[0], y=[0], max_speed=[0]), ValueError, "max_speed of point 0 is 0"),
+    (
+        lambda w: w.follow(1, 1, x=[0], y=[0], max_speed=[0]),
+        ValueError,
+        "max_speed of point 0 is 0",
+    ),
     (lambda w: w.follow(1, 1, x=[0], y=[0], max_speed=[1, 1]), ValueError, "max_speed has 2 entr"),
     (lambda w: w.follow([1, 2], 1, points=[1], x=[0], y=[0]), ValueError, "points make 2"),
     (lambda w: w.follow([1, 2], [1, 2, 3]), ValueError, "path_id has 3"),

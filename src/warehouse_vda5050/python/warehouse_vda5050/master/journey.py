@@ -137,7 +137,9 @@ class Journey:
         if math.isfinite(limit):
             demands["maxSpeed"] = limit
         released = i + 1 < self.released
-        return Edge(f"{start}-{end}", 2 * i + 1, released, start, end, demands=tuple(demands.items()))
+        return Edge(
+            f"{start}-{end}", 2 * i + 1, released, start, end, demands=tuple(demands.items())
+        )
 
 
 def begin(command: Follow, order_id: str, heading: float) -> Journey:

@@ -138,9 +138,7 @@ class Wheels:
         self._leg.speeds = _speeds_of(self._leg, speeds)
         self._send(self._leg, 0)
 
-    def _lengthen(
-        self, leg: Leg, order: OrderProgress, goal: int, speeds: Sequence[float]
-    ) -> None:
+    def _lengthen(self, leg: Leg, order: OrderProgress, goal: int, speeds: Sequence[float]) -> None:
         # Point `counted - 1` of the leg is the order's node 0, the last passed one.
         beyond = len(leg.points) - leg.counted
         first = len(leg.points)

@@ -30,7 +30,8 @@ from warehouse_vda5050.vehicle.phase import Phase
 from warehouse_vda5050.vehicle.progress import OrderProgress
 from warehouse_vda5050.vehicle.state_report import StateReporter
 from warehouse_vda5050.vehicle.vehicle import Vehicle
-from warehouse_vda5050.vehicle.wheels import Wheels, _speeds_of as speeds_of
+from warehouse_vda5050.vehicle.wheels import Wheels
+from warehouse_vda5050.vehicle.wheels import _speeds_of as speeds_of
 
 from warehouse_vda5050.mqtt.vehicle_link import VehicleLink  # isort: skip
 

@@ -76,7 +76,7 @@ class PaperRobot(LimitedRobot):
 
     @property
     def speed(self):
-        """On the present edge, of 1 m [m/s]."""
+        """That of the present edge, of 1 m [m/s]."""
         return min(TOP, self.limits.get(self.reached, TOP))
 
     def init_position(self, x, y, yaw):

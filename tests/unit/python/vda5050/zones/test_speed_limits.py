@@ -137,13 +137,13 @@ def test_a_zone_that_no_robot_can_creep_through_is_refused_by_its_field(speed):
 
 def test_arrivals_know_the_limits():
     points = [(float(x), 0.0) for x in range(4)]
-    (_, one, two, end) = waypoints(points, [ANY, 0.5, ANY], 0.0, 0.0, KIVA, 0.0)
+    (_, first, second, end) = waypoints(points, [ANY, 0.5, ANY], 0.0, 0.0, KIVA, 0.0)
     # Up to a peak and down to 0.5 m/s, 1 m at 0.5 m/s, and up to a peak and down to a stop.
     peak = math.sqrt((2 + 0.25) / 2)
-    assert one.eta == pytest.approx(2 * peak - 0.5)
-    assert two.eta - one.eta == pytest.approx(2.0)
-    assert end.eta - two.eta == pytest.approx(one.eta)
-    assert [round(point.x, 6) for point in (one, two, end)] == [1.0, 2.0, 3.0]
+    assert first.eta == pytest.approx(2 * peak - 0.5)
+    assert second.eta - first.eta == pytest.approx(2.0)
+    assert end.eta - second.eta == pytest.approx(first.eta)
+    assert [round(point.x, 6) for point in (first, second, end)] == [1.0, 2.0, 3.0]
 
 
 def test_the_intermediate_path_of_an_order_with_limits_is_later():

@@ -34,8 +34,8 @@ double stoppingWay(double speed, double deceleration, double dt) {
 /// Returns the distance before a slower way at which its limit is kept already [m].
 double marginOf(const FleetState& f, int i, double limit, double dt) {
   // Wheels follow the reference a step later: without acceleration that is a step at full speed.
-  const double before = f.acceleration[i] > 0 ? limit + f.acceleration[i] * dt
-                                              : limit + f.robots[i].drive.speed;
+  const double before =
+      f.acceleration[i] > 0 ? limit + f.acceleration[i] * dt : limit + f.robots[i].drive.speed;
   const double step = before * dt;
   return f.lag.isNone() ? step : step + kTimeConstants * f.lag.behind * limit;
 }
@@ -57,8 +57,8 @@ double permittedSpeed(const Scene& world, int i) {
     const double way = alongRun(task, k) - command.position - marginOf(f, i, limit, dt);
     if (way > stoppingWay(f.robots[i].drive.speed, braking, dt) + speed * dt) break;
     const double room = std::max(0.0, way) + stoppingWay(limit, braking, dt);
-    permitted = std::min(permitted, braking > 0 ? Profile::stoppingSpeed(room, braking, dt)
-                                                : limit);
+    permitted =
+        std::min(permitted, braking > 0 ? Profile::stoppingSpeed(room, braking, dt) : limit);
   }
   if (braking == 0) return permitted;
   return std::max(permitted, speed - plannedBraking(world, i) * dt);

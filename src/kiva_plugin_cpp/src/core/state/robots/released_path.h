@@ -16,9 +16,9 @@ struct ReleasedPath {
   std::vector<PathPoint> points;  ///< Points from `first` to the end of the path.
   /// Highest speed on the way to each of `points` from the one before [m/s]; empty = no limit.
   std::vector<double> limits;
-  std::uint32_t released = 0;     ///< Count of released points; 0 = no path.
-  std::uint32_t origin = 0;       ///< Point at which the present run begins, or the robot stands.
-  std::uint32_t end = 0;          ///< Point at which the run ends, as far as it is released.
+  std::uint32_t released = 0;  ///< Count of released points; 0 = no path.
+  std::uint32_t origin = 0;    ///< Point at which the present run begins, or the robot stands.
+  std::uint32_t end = 0;       ///< Point at which the run ends, as far as it is released.
 
   bool isUnderWay() const { return released > 0; }
   std::uint32_t size() const { return first + static_cast<std::uint32_t>(points.size()); }

@@ -230,7 +230,7 @@ def one_way(probe: Probe) -> None:
 
 @case("speed_limit", "6.4.1.1", edges=3, versions=ONLY)
 def speed_limit(probe: Probe) -> None:
-    """A vehicle does not drive faster in a SPEED_LIMIT zone, and has slowed down where it enters."""
+    """A vehicle is not faster in a SPEED_LIMIT zone, and has slowed down where it enters."""
     _need(probe, "SPEED_LIMIT")
     way = probe.way(3)
     _demand_speed(probe, way, probe.new_order(way), {"maximumSpeed": SLOW}, SLOW)
@@ -246,9 +246,7 @@ def lowest_limit(probe: Probe) -> None:
     _demand_speed(probe, way, order, {"maximumSpeed": 2 * SLOW}, SLOW)
 
 
-def _demand_speed(
-    probe: Probe, way: list[Place], order: Json, more: Json, limit: float
-) -> None:
+def _demand_speed(probe: Probe, way: list[Place], order: Json, more: Json, limit: float) -> None:
     """Demands that an order's second edge, all in a zone, is not driven faster than at a limit
     [m/s]."""
     zone = _zone(way[1], _edge(way), "SPEED_LIMIT", **more)

@@ -113,14 +113,15 @@ TEST_F(SpeedLimitTest, ReleasesBetweenWaysOfTheSameLimitMakeNoDip) {
   w.world.post(begin);
   std::uint32_t released = 4;
   double least = kTop;
-  w.runUntil([&] { return w.x(1) > 10; }, 60, [&] {
-    const bool is_near = w.world.fleet().reached[0] + 2 > released;
-    if (w.x(1) > 0.5) least = std::min(least, w.speed(1));
-    if (!is_near || released > 13) return;
-    FollowPath more = path({0.6}, released - 1);
-    w.world.post(more);
-    ++released;
-  });
+  w.runUntil([&] { return w.x(1) > 10; }, 60,
+             [&] {
+               const bool is_near = w.world.fleet().reached[0] + 2 > released;
+               if (w.x(1) > 0.5) least = std::min(least, w.speed(1));
+               if (!is_near || released > 13) return;
+               FollowPath more = path({0.6}, released - 1);
+               w.world.post(more);
+               ++released;
+             });
   EXPECT_GE(released, 12u);
   EXPECT_NEAR(least, 0.6, kExact);
 }
@@ -175,10 +176,11 @@ double excess(const Floorplan& plan, const std::string& kiva) {
   path.released = static_cast<std::uint32_t>(path.x.size());
   w.world.post(path);
   double most = -kTop;
-  w.runUntil([&] { return w.status(1) == Status::kIdle && w.x(1) > 1; }, 120, [&] {
-    const auto way = static_cast<std::size_t>(std::clamp(std::floor(w.x(1)), 0.0, 10.0));
-    most = std::max(most, w.speed(1) - speeds[way]);
-  });
+  w.runUntil([&] { return w.status(1) == Status::kIdle && w.x(1) > 1; }, 120,
+             [&] {
+               const auto way = static_cast<std::size_t>(std::clamp(std::floor(w.x(1)), 0.0, 10.0));
+               most = std::max(most, w.speed(1) - speeds[way]);
+             });
   EXPECT_NEAR(w.x(1), 11, 0.02);
   return most;
 }
