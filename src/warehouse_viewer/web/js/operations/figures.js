@@ -39,8 +39,11 @@ export function verdict({ value, target, early = false, enough = false }, most =
   if (miss <= (most ? 0 : EXACT)) return ['good', tr`on target`];
   if (early) return ['', tr`the shift begins`];
   if (enough) return ['good', tr`all that is ordered`];
-  return miss <= (most ? target : NEAR) ? ['near', most ? tr`just above target` : tr`just below target`] : ['missed', most ? tr`above target` : tr`below target`];
+  return most ? above(miss, target) : below(miss);
 }
+
+const above = (miss, target) => (miss <= target ? ['near', tr`just above target`] : ['missed', tr`above target`]);
+const below = (miss) => (miss <= NEAR ? ['near', tr`just below target`] : ['missed', tr`below target`]);
 
 const COLOURS = { good: 'working', near: 'waiting', missed: 'needs-help', '': 'moving' };
 

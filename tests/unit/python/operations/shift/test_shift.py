@@ -455,8 +455,9 @@ def test_an_order_that_is_made_urgent_comes_before_older_ones(tmp_path):
     ops.run(minutes=5)
     events = events_of(ops)
     urgent = list(ops.shift.backlog)[-1]
-    assert ops.shift.change_order(urgent.order_id, 9, 1800.0) == (True, "priority 9, due at 0:30:00")
-    assert events == [(urgent.order_id, 8, "", 0, "", 0, "priority 9, due at 0:30:00")]
+    said = "priority 9, due at 0:30:00"
+    assert ops.shift.change_order(urgent.order_id, 9, 1800.0) == (True, said)
+    assert events == [(urgent.order_id, 8, "", 0, "", 0, said)]
     assert next(ops.shift.backlog.by_urgency()) is urgent
     assert [order.order_id for order in ops.shift.backlog] == sorted(ops.shift.backlog.orders)
     there = next(o for o in ops.shift.orders.values() if o.station and not o.done)
