@@ -161,14 +161,15 @@ class Reasons:
                 self._errands[robot] = unit, station, order
 
     def root(self, robot: int) -> int:
-        """Returns the robot at which the chain of waiting robots ends; itself if it waits for
-        none."""
+        """Returns the robot at which the chain of waiting robots ends: the first at fault, or that
+        waits for none; itself if it is one."""
         passed = {robot}
-        while (ahead := self._waits.get(robot, (0,))[0]) and ahead not in passed:
+        while not self.fault(robot) and (ahead := self._waits.get(robot, (0,))[0]):
+            if ahead in passed:
+                return min(passed)  # all robots of a ring have the same root
             passed.add(ahead)
             robot = ahead
-        # All robots of a ring have the same root.
-        return min(passed) if ahead else robot
+        return robot
 
     def fault(self, robot: int) -> str:
         """Returns why a robot can't drive autonomously, as "broken (drive)"; else empty."""

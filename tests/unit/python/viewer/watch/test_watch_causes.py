@@ -73,6 +73,14 @@ def test_a_broken_robot_is_one_alarm_with_its_queue_and_its_station():
     assert "kiva1, kiva2" in alarm.consequences[0] and "unit 23" in alarm.consequences[1]
 
 
+def test_a_broken_robot_that_waits_is_where_the_queue_begins():
+    waits = {8: (14, 700.0, "behind kiva14, which is broken")}
+    waits[14] = (8, 700.0, "behind kiva8")  # before it broke down
+    waits |= {15: (8, 300.0, "in the queue of pick3 behind kiva8, in a queue behind kiva14")}
+    _, (alarm,) = situation(fleet(15, [14]), coordinator(waits))
+    assert alarm.headline == "kiva14 is broken (drive): 2 robots wait behind it"
+
+
 def test_two_failures_are_two_alarms_each_with_its_own():
     waits = queue(3) | {8: (18, 100.0, "behind kiva18, which is broken")}
     _, alarms = situation(fleet(20, [16, 18]), coordinator(waits))
