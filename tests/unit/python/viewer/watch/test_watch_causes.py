@@ -111,7 +111,28 @@ def test_what_has_waited_for_a_repaired_robot_is_given_time():
         pending = [*troubles.of_fleet(message), *troubles.of_coordinator(state)]
         alarms = causes.by_cause(pending, reasons, now)
         assert [alarm.kind for alarm in alarms] == expected, now
-    assert alarms[0].since == NOW + 1
+    assert alarms[0].since == NOW
+
+
+def test_a_queue_that_moves_on_after_a_repair_is_no_alarm():
+    first = queue(3)  # behind kiva16
+    reasons, starved = Reasons(), {"pick4": 40.0}
+    for now, broken, waits, expected in (
+        (NOW, [16], first, ["ROBOT_BROKEN"]),
+        # The first has gone; the others have stood for as long as before.
+        (NOW + 5, [], {n: first[n] for n in (2, 3)}, []),
+        (NOW + 10, [], {3: (0, 800.0, "until its route is free")}, []),
+        (NOW + troubles.STARVED + 1, [], {}, ["STATION_STARVED"]),
+    ):
+        state, message = coordinator(waits), fleet(20, broken, {1: 23})
+        reasons.update(now, message, state, [STATION], starved, {})
+        pending = [
+            *troubles.of_fleet(message),
+            *troubles.of_coordinator(state),
+            *troubles.of_stations([STATION], now, starved),
+        ]
+        alarms = causes.by_cause(pending, reasons, now)
+        assert [alarm.kind for alarm in alarms] == expected, now
 
 
 def test_a_queue_behind_a_robot_that_works_is_no_fault():
