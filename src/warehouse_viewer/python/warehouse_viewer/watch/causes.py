@@ -38,9 +38,7 @@ def by_cause(pending: Iterable[Trouble], reasons: Reasons, now: float) -> list[T
     return [*causes.values(), *rest]
 
 
-def _is_news(
-    trouble: Trouble, explained: Collection[str], reasons: Reasons, now: float
-) -> bool:
+def _is_news(trouble: Trouble, explained: Collection[str], reasons: Reasons, now: float) -> bool:
     """Returns whether a station stands still for no fault of a robot, and for as long as an alarm
     takes: after a repair its next unit is on its way."""
     station = trouble.subject
