@@ -47,32 +47,31 @@ bool reply(Response& response, Body body) {
   return true;
 }
 
-/// Returns what a service with such responses calls: `body(request, response)` returns the status
+/// Returns what answers requests with such responses: `body(request, response)` returns the status
 /// text. `label`: the service's name in texts.
-template <typename Service, typename Body>
+template <typename Body>
 auto answering(const std::string& label, Body body) {
-  return [label, body](const typename Service::Request& request,
-                       typename Service::Response& response) {
+  return [label, body](auto& request, auto& response) {
     return answer(label, response, [&] { return std::string(body(request, response)); });
   };
 }
 
-/// Advertises a service that answers so.
+/// Advertises a service that answering() answers.
 template <typename Service, typename Body>
 ros::ServiceServer serve(ros::NodeHandle& node, const std::string& name, const std::string& label,
                          Body body) {
   using Request = typename Service::Request;
   using Response = typename Service::Response;
-  const boost::function<bool(Request&, Response&)> call = answering<Service>(label, body);
+  const boost::function<bool(Request&, Response&)> call = answering(label, body);
   return node.advertiseService<Request, Response>(name, call);
 }
 
-/// Does the same, and publishes its calls, since the service changes something.
+/// Advertises a service as serve() does, and publishes its calls, since it changes something.
 template <typename Service, typename Body>
 ros::ServiceServer serveChange(ros::NodeHandle& node, const std::string& name,
                                const std::string& label, Body body) {
   return serveCommand<typename Service::Request, typename Service::Response>(
-      node, name, answering<Service>(label, body));
+      node, name, answering(label, body));
 }
 
 }  // namespace kiva_ros
