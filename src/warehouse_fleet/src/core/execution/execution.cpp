@@ -48,7 +48,10 @@ void Execution::update(double time, std::vector<Report> reports) {
       course.still_since = course.moved = now_;
       continue;
     }
-    if (course.isMember() && !reports_[robot].is_controlled && isOver(robot)) dismiss(robot);
+    if (course.isMember() && !reports_[robot].is_controlled) {
+      course.recovery = {};  // whoever takes it over again begins anew, its old path over or not
+      if (isOver(robot)) dismiss(robot);
+    }
     if (!course.isMember()) continue;
     follow(robot);
     if (course.isMember()) keepAround(robot);

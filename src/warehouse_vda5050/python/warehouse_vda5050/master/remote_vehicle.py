@@ -175,7 +175,7 @@ class RemoteVehicle:
             )
         self.abilities.sheet, self._unread_sheet = sheet, ""
         self.view.speedometer.fastest = self.abilities.top_speed
-        self._instants.most = sheet.lengths.instant_actions
+        self._instants.lengths = sheet.lengths
         if self._journey:
             self._journey.max_nodes = self.abilities.max_nodes or sheet.max_nodes
         misfit = too_large(sheet, self._grid.spacing)
@@ -498,6 +498,9 @@ class RemoteVehicle:
             if references.get("orderId") == way.order_id and update == str(way.update):
                 self._back_off(now)
                 self._give_up(way, f"{error.type}: {error.description}")
+                if self.waits and way.released == len(way.points):
+                    self._end(EventKind.BLOCKED, "it refuses that its path ends where it stands")
+                    self._clear()
                 return
 
     def _back_off(self, now: float) -> None:
