@@ -215,11 +215,23 @@ class Sentences(unittest.TestCase):
         self.peer.state(lambda s: not s["nodeStates"] and not s["driving"], "the end")
         return self.peer.states[since:]
 
-    def test_the_maximum_speed_of_an_edge_is_kept_or_refused_by_the_field(self):
-        order = self.order(self.way[:2], edges={0: {"maxSpeed": 0.2}})
-        states = self.driven_or_refused(order, "maxSpeed")
-        speeds = [math.hypot(s["velocity"]["vx"], s["velocity"]["vy"]) for s in states]
-        self.assertLess(max(speeds, default=0.0), 0.23)
+    def test_the_maximum_speed_of_an_edge_ahead_is_kept_from_where_the_edge_begins(self):
+        order = self.order(self.way, edges={1: {"maxSpeed": 0.2}})
+        since, begin = len(self.peer.states), self.grid.position(self.way[0])
+        self.assertFalse(self.driven(order)["errors"])
+        speeds = []
+        for state in self.peer.states[since:]:
+            way = math.dist((state["agvPosition"]["x"], state["agvPosition"]["y"]), begin)
+            if state["orderId"] == order["orderId"] and 1.0 < way < 2.0:
+                speeds.append(math.hypot(state["velocity"]["vx"], state["velocity"]["vy"]))
+        self.assertTrue(speeds, "no state of the second edge")
+        self.assertLess(max(speeds), 0.2001)
+        self.assertGreater(max(speeds), 0.19)
+
+    def test_a_maximum_speed_that_no_robot_can_creep_at_is_refused_by_the_field(self):
+        for speed in (0, -1, 0.001):
+            order = self.order(self.way[:2], edges={0: {"maxSpeed": speed}})
+            self.refused(order, "maxSpeed")
 
     def test_a_maximum_height_below_the_robots_own_is_refused_by_the_field(self):
         state = self.refused(self.order(self.way[:2], edges={0: {"maxHeight": 0.1}}), "maxHeight")

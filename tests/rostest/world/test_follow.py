@@ -14,7 +14,7 @@ from rostest_support.node_test import wait_until
 from rostest_support.warehouse_test import Collector, Commander, place, sim_time, step_until
 from rostest_support.world_node import Node
 
-from warehouse_msgs.msg import Event, FleetState, KivaStatus
+from warehouse_msgs.msg import Event, FleetState, FollowPath, KivaStatus
 
 MODELS = ("kiva1", "kiva2", "kiva77", "")
 
@@ -48,6 +48,7 @@ class Follow(unittest.TestCase):
             self.assertEqual(code, 0, said)
         with rosbag.Bag(self.bag) as bag:
             counts = {t: i.message_count for t, i in bag.get_type_and_topic_info().topics.items()}
+        self.assertEqual(counts["/follow_limited"], 2)
         # The first one waited when the recording began, and is in its keyframe.
         self.assertEqual((counts["/follow"], counts["/cancel"], counts["/stop"]), (7, 1, 2))
         with Node(rtf=0, replay=self.bag) as node:
@@ -112,6 +113,21 @@ class Follow(unittest.TestCase):
         self.assertEqual(self.robot(state, 1), (KivaStatus.STATE_IDLE, 5, 6, 5, Event.DONE))
 
         self.refusals(xs[1], ys[1])
+        self.limited()
+
+    def limited(self):
+        x, y, _ = place("kiva1")
+        xs = [x - k for k in range(4)]
+        path = FollowPath(kiva_id=1, path_id=11, x=xs, y=[y] * 4, released=4)
+        inf = float("inf")
+        answer = self.answered("/follow_limited", path=path, max_speed=[inf, 0.0, inf, inf])
+        self.assertEqual((answer.kind, answer.model), (Event.REFUSED, "kiva1"))
+        self.assertIn("max_speed 0", answer.text)
+        answer = self.answered("/follow_limited", path=path, max_speed=[inf, 0.3, 0.3, inf])
+        self.assertEqual((answer.kind, answer.model), (Event.ACCEPTED, "kiva1"), answer.text)
+        speeds = [self.speed_after_a_step() for _ in range(120)]
+        self.assertAlmostEqual(speeds[-1], 0.3, 6)
+        self.assertLess(max(speeds), 0.3 + 1e-6)
 
     def speed_after_a_step(self):
         step_until(sim_time() + 0.05)

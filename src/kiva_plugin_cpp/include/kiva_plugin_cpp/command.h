@@ -43,7 +43,10 @@ struct FollowPath {
   std::vector<double> x, y;    ///< Grid points in world [m]; neighbours differ along one axis.
                                ///< Point 0 is where the robot stands.
   std::uint32_t released = 0;  ///< Count of points of the whole path that are released, at least 1.
-  std::string fault;           ///< If not empty, the path is refused for this reason.
+  /// Highest speed on the way to each of these points from the one before [m/s]: above 0, +inf = as
+  /// fast as the robot is. Empty: known points keep theirs, and new ones have no limit.
+  std::vector<double> max_speed;
+  std::string fault;  ///< If not empty, the path is refused for this reason.
 };
 
 /// How two bodies met.

@@ -249,6 +249,7 @@ class World(_core.World):
         x: ArrayLike = (),
         y: ArrayLike = (),
         released: ArrayLike | None = None,
+        max_speed: ArrayLike = (),
     ) -> None:
         """Gives robots paths, of which they drive the released part, or changes their paths.
 
@@ -257,6 +258,9 @@ class World(_core.World):
         robot stands or, off the grid, a free grid point near it, to which it returns first.
         `released` counts points of the whole path; None releases all. For many robots: arrays of
         shape (n,), where `points` says how many consecutive entries of x and y each robot has.
+        `max_speed`: as many as x, the highest speed on the way to each point from the one before
+        [m/s]; inf = as fast as the robot is. Without, known points keep theirs and new ones have no
+        limit.
 
         The path_id of the path under way changes that path: points beyond the released ones are
         replaced from `first` on, or kept if none are given; `released` may shrink as far as the
@@ -267,7 +271,7 @@ class World(_core.World):
             points = len(numpy.asarray(x))
         if released is None:
             released = numpy.add(first, points)
-        super().follow(kiva_id, path_id, first, points, x, y, released)
+        super().follow(kiva_id, path_id, first, points, x, y, released, max_speed)
 
     def spawn_model(
         self, model: str, name: str, x: float, y: float, z: float = 0.0, yaw: float = 0.0

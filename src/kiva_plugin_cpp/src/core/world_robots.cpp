@@ -47,6 +47,12 @@ void World::post(FollowPath path) {
     path.fault = "a coordinate is not a finite number";
     column->clear();
   }
+  const auto isTooSlow = [](double value) { return !(value > 0); };
+  const auto slow = std::find_if(path.max_speed.begin(), path.max_speed.end(), isTooSlow);
+  if (slow != path.max_speed.end()) {
+    path.fault = format("max_speed %g: a speed above 0 was expected", *slow);
+    path.max_speed.clear();
+  }
   Command command;
   command.kind = Command::Kind::kFollow;
   command.kiva_id = path.kiva_id;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plugins/motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -8,6 +9,7 @@
 #include "core/motion/driving/cruise.h"
 #include "core/motion/driving/drives.h"
 #include "core/motion/driving/self_location.h"
+#include "core/motion/driving/speed_limits.h"
 #include "core/motion/driving/stretches.h"
 #include "core/motion/wheels/ground.h"
 #include "core/sensing/room.h"
@@ -177,10 +179,10 @@ void driveSegment(TaskView& world, Obstacles& obstacles, int i) {
   const bool backs = past > 0;
   const bool is_sure = segment.on_grid && !backs && !(f.localises && f.localisation[i].lost);
   const double usual = is_sure ? r.drive.speed : std::min(r.drive.speed, kRecoverSpeed);
-  const double top = std::min(usual, allowedSpeed(world, i));
+  const double top = std::min({usual, allowedSpeed(world, i), permittedSpeed(world, i)});
   const bool exact = f.localises ? segment.on_grid && isOnCourse(lag, at.heading, at.across)
                                  : isExact(lag) && isExact(at.heading) && isExact(at.across);
-  if (exact && !segment.reverse && !backs &&
+  if (exact && !segment.reverse && !backs && holdsSpeed(world, i, top) &&
       tryCruise(world, obstacles, i, alongLine(segment, top, f.acceleration[i]))) {
     return;
   }

@@ -170,23 +170,33 @@ void endSteering(Host& host, std::int32_t kiva_id) {
   host.world.endSteering(kiva_id);
 }
 
-/// Posts a path for each row, or none if one is wrong. Row i has the next `points[i]` entries of x
-/// and y.
+void checkSpeeds(const Reals& speeds) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(speeds.size()); ++k) {
+    if (speeds.data()[k] > 0) continue;
+    throw py::value_error("max_speed of point " + std::to_string(k) + " is " +
+                          text(py::float_(speeds.data()[k])) + "; expected a number above 0");
+  }
+}
+
+/// Posts a path for each row, or none if one is wrong. Row i has the next `points[i]` entries of x,
+/// y and, unless that is empty, max_speed.
 void follow(Host& host, const ArrayLike& kiva_id, const ArrayLike& path_id, const ArrayLike& first,
             const ArrayLike& points, const ArrayLike& x, const ArrayLike& y,
-            const ArrayLike& released) {
+            const ArrayLike& released, const ArrayLike& max_speed) {
   const Ids ids("kiva_id", kiva_id);
   const Counts paths("path_id", path_id), firsts("first", first), counts("points", points),
       releases("released", released);
-  const Reals xs("x", x), ys("y", y);
+  const Reals xs("x", x), ys("y", y), speeds("max_speed", max_speed);
   const std::size_t rows = lengthOf(ids, paths, firsts, counts, releases);
   std::size_t total = 0;
   for (std::size_t i = 0; i < rows; ++i) total += counts[static_cast<py::ssize_t>(i)];
-  for (const Reals* column : {&xs, &ys}) {
-    if (static_cast<std::size_t>(column->size()) == total) continue;
+  for (const Reals* column : {&xs, &ys, &speeds}) {
+    const auto size = static_cast<std::size_t>(column->size());
+    if (size == total || (column == &speeds && size == 0)) continue;
     throw py::value_error(std::string(column->name()) + " has " + std::to_string(column->size()) +
                           " entries, and points make " + std::to_string(total));
   }
+  checkSpeeds(speeds);
   const auto lock = host.use();
   for (std::size_t i = 0; i < rows; ++i) checkRobot(host, ids[static_cast<py::ssize_t>(i)]);
   for (std::size_t k = 0; k < total; ++k) {
@@ -203,6 +213,9 @@ void follow(Host& host, const ArrayLike& kiva_id, const ArrayLike& path_id, cons
     path.released = releases[i];
     path.x.assign(xs.data() + at, xs.data() + at + counts[i]);
     path.y.assign(ys.data() + at, ys.data() + at + counts[i]);
+    if (speeds.size() > 0) {
+      path.max_speed.assign(speeds.data() + at, speeds.data() + at + counts[i]);
+    }
     at += counts[i];
     host.world.post(std::move(path));
   }
@@ -248,7 +261,8 @@ match, an unknown robot, NaN or infinity. An event refuses what a robot can't do
             "Orders robots to carry (1) or drop (0) storage unit shelf_id; 0 drops the one that is "
             "carried. Arguments and errors as of mov().");
   world.def("follow", &follow, py::arg("kiva_id"), py::arg("path_id"), py::arg("first"),
-            py::arg("points"), py::arg("x"), py::arg("y"), py::arg("released"));
+            py::arg("points"), py::arg("x"), py::arg("y"), py::arg("released"),
+            py::arg("max_speed"));
   world.def(
       "cancel", &cancel, py::arg("kiva_id"),
       R"(Ends a robot's command in DONE, "cancelled", at the next grid point where it can stop.

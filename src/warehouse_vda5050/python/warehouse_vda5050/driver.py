@@ -100,6 +100,22 @@ class Driver(abc.ABC):
 
     # What follows has an answer of its own for robots that know none of it.
 
+    # Whether follow_limited() is implemented; otherwise orders with speed limits are refused.
+    keeps_speeds = False
+
+    def follow_limited(
+        self,
+        path_id: int,
+        first: int,
+        points: Sequence[Point],
+        released: int,
+        speeds: Sequence[float],
+    ) -> None:
+        """Does as follow(), with a highest speed on the way to each point from the one before
+        [m/s], inf for none: the robot has slowed down where a way begins. Points of the path under
+        way that come again change their speeds alone; a robot that is too fast then brakes."""
+        raise NotImplementedError
+
     def take(self) -> str:
         """Takes the robot for an order, from whom commands it else. Returns why not, or ''."""
         return ""

@@ -83,7 +83,7 @@ EDGE = (
     Rule("edgeDescription", Use.SHOWN, ""),
     Rule("edgeDescriptor", Use.SHOWN, ""),
     Rule("actions", Use.REFUSED, "actions belong to nodes"),
-    Rule("maxSpeed", Use.CHECKED, "refused below the robot's own top speed", Kind.NUMBER),
+    Rule("maxSpeed", Use.DRIVEN, "0.01 m/s or more, from node to node", Kind.NUMBER),
     Rule("maxHeight", Use.CHECKED, "refused below the robot's height, with its load", Kind.NUMBER),
     Rule("minHeight", Use.CHECKED, "refused above 0: the lift is moved at nodes", Kind.NUMBER),
     Rule("orientation", Use.CHECKED, "forwards along the edge", Kind.NUMBER),

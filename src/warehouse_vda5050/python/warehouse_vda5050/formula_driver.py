@@ -22,6 +22,8 @@ class FormulaRobot(Driver):
     '' if it does; lift_time: how long one takes [s].
     """
 
+    keeps_speeds = True
+
     def __init__(self, x: float, y: float, yaw: float, speed: float = 1.5) -> None:
         self.x, self.y, self.yaw = x, y, yaw
         self._speed, self._sheet = speed, Factsheet("conform", "a vehicle that conform plays")
@@ -31,6 +33,7 @@ class FormulaRobot(Driver):
         self.lift_fault, self.lift_time = "", LIFT_TIME
         self.load = ""
         self._path: list[Point] = []
+        self._speeds: dict[int, float] = {}  # of the ways to points of the path, by number
         self._path_id = self._reached = 0
         self._lift: tuple[str, bool, float] | None = None  # unit, up, and the time left [s]
         self._busy = self._stopped = self._cancelling = False
@@ -48,6 +51,20 @@ class FormulaRobot(Driver):
         else:
             self._path, self._path_id, self._reached = [*points], path_id, 1
             self._busy, self._cancelling = True, False
+            self._speeds = {}
+
+    def follow_limited(
+        self,
+        path_id: int,
+        first: int,
+        points: Sequence[Point],
+        released: int,
+        speeds: Sequence[float],
+    ) -> None:
+        """Does the same with speed limits, at once at each point."""
+        self.follow(path_id, first, points, released)
+        if not self._refusal:
+            self._speeds.update(enumerate(speeds, first))
 
     def lift(self, unit: str, up: bool) -> None:
         """Lifts whatever is meant, and puts it down."""
@@ -88,7 +105,7 @@ class FormulaRobot(Driver):
     def _drive(self, seconds: float) -> None:
         while self._reached < len(self._path) and seconds > 0:
             start, goal = self._path[self._reached - 1], self._path[self._reached]
-            speed = min(self._speed, self.limits.get((start, goal), self._speed))
+            speed = self._speed_between(start, goal)
             way = math.dist((self.x, self.y), goal)
             if way > 1e-9:
                 self.yaw = math.atan2(goal[1] - self.y, goal[0] - self.x)
@@ -102,6 +119,10 @@ class FormulaRobot(Driver):
                 break
         if self._cancelling or self._reached == len(self._path):
             self._busy = self._cancelling = False
+
+    def _speed_between(self, start: Point, goal: Point) -> float:
+        ordered = self._speeds.get(self._reached, math.inf)
+        return min(self._speed, ordered, self.limits.get((start, goal), math.inf))
 
     def _move(self, goal: Point, way: float, step: float) -> None:
         share = step / way if way > 0 else 1.0
@@ -120,9 +141,15 @@ class FormulaRobot(Driver):
         """Whether it drives."""
         return self._busy and not self._stopped and self._lift is None
 
+    @property
+    def _present_speed(self) -> float:
+        if not 0 < self._reached < len(self._path):
+            return self._speed
+        return self._speed_between(self._path[self._reached - 1], self._path[self._reached])
+
     def report(self) -> Report:
         """Returns its report."""
-        speed = self._speed if self.is_moving else 0.0
+        speed = self._present_speed if self.is_moving else 0.0
         report = Report(
             self.x,
             self.y,

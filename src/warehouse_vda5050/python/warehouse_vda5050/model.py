@@ -16,6 +16,7 @@ from warehouse_vda5050.paths import PlannedPath, Waypoint
 from warehouse_vda5050.zones.zone import Response, Zone, ZoneRequest, ZoneSetState
 
 MAP_ID = "warehouse"  # the one map that robots of this project know
+LEAST_SPEED = 0.01  # of speed limits: a robot creeps at it [m/s]
 
 
 class BlockingType(StrEnum):
@@ -376,6 +377,7 @@ class Factsheet:
     silent: tuple[str, ...] = ()
     faults: tuple[str, ...] = ()
     header: Header = field(default_factory=Header)
+    keeps_speeds: bool = False  # whether it slows down for edges and zones with speed limits
     lengths: Lengths = Lengths()  # that a master's messages keep to
 
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 Point = tuple[float, float]  # [m] in the frame of the map
 SAMPLES = 8  # points of each piece of a curve
 MAX_POINTS = 1000  # of one path
+STRAIGHT = 0.05  # headings within this of one another are those of one line [rad]
 
 
 @dataclass(frozen=True)
@@ -108,32 +109,81 @@ class Motion:
     quarter_turn: float
 
 
+@dataclass(frozen=True)
+class _Leg:
+    """A straight way; limit: the highest speed on it [m/s]."""
+
+    end: Point
+    length: float
+    heading: float
+    limit: float
+
+
 def waypoints(
-    points: Sequence[Point], yaw: float, speed: float, motion: Motion, begin: float
+    points: Sequence[Point],
+    limits: Sequence[float],
+    yaw: float,
+    speed: float,
+    motion: Motion,
+    begin: float,
 ) -> list[Waypoint]:
     """Returns when a robot that drives at a speed [m/s] from points[0] is at each corner of its
-    way; it stops to turn, and at the end. begin: the time now [s since 1970]."""
+    way, and where its limit changes; it stops to turn, and at the end. limits: the highest speed
+    on the way to each further point [m/s]. begin: the time now [s since 1970]."""
     out, now = [Waypoint(*points[0], begin, yaw)], begin
-    for start, end in itertools.pairwise(points):
-        heading = math.atan2(end[1] - start[1], end[0] - start[0])
+    for heading, straight in itertools.groupby(_legs(points, limits, motion), _heading):
         turn = abs(math.remainder(heading - yaw, math.tau))
         if turn > 0.1:
             now, speed = now + turn / (math.pi / 2) * motion.quarter_turn, 0.0
-        now += _time(math.dist(start, end), speed, motion)
+        legs = [*straight]
+        for leg, seconds in zip(legs, _times(legs, speed, motion)):
+            now += seconds
+            out.append(Waypoint(*leg.end, now, heading))
         yaw, speed = heading, 0.0
-        out.append(Waypoint(*end, now, heading))
     return out
 
 
-def _time(way: float, speed: float, motion: Motion) -> float:
-    """Returns how long a way takes that begins at a speed and ends at a stop [s]."""
-    up, down, top = motion.acceleration, motion.deceleration, motion.speed
-    speed = min(speed, top)
-    # The speed at which braking begins, if the way is too short for the top speed.
-    peak = math.sqrt((2 * up * down * way + down * speed * speed) / (up + down))
-    peak = max(speed, min(peak, top))
-    rest = way - (peak * peak - speed * speed) / (2 * up) - peak * peak / (2 * down)
-    return (peak - speed) / up + peak / down + max(0.0, rest) / peak if peak > 0 else 0.0
+def _heading(leg: _Leg) -> float:
+    return leg.heading
+
+
+def _legs(points: Sequence[Point], limits: Sequence[float], motion: Motion) -> list[_Leg]:
+    """Returns a way's straight pieces of one limit; those of one line have the same heading."""
+    legs: list[_Leg] = []
+    start = points[0]
+    for point, speed in zip(points[1:], limits):
+        length, limit = math.dist(start, point), min(speed, motion.speed)
+        if length < 1e-6:
+            continue
+        heading = math.atan2(point[1] - start[1], point[0] - start[0])
+        if legs and abs(math.remainder(heading - legs[-1].heading, math.tau)) < STRAIGHT:
+            heading = legs[-1].heading
+            if limit == legs[-1].limit:
+                length += legs.pop().length
+        legs.append(_Leg(point, length, heading, limit))
+        start = point
+    return legs
+
+
+def _times(legs: Sequence[_Leg], speed: float, motion: Motion) -> list[float]:
+    """Returns how long each piece of a straight way takes that begins at a speed and ends at a
+    stop [s]."""
+    up, down = motion.acceleration, motion.deceleration
+    ends = [0.0]  # the speed at each piece's end, from the last one back
+    for leg in reversed(legs[1:]):
+        ends.append(min(leg.limit, math.sqrt(ends[-1] ** 2 + 2 * down * leg.length)))
+    times = []
+    for leg, slowed in zip(legs, reversed(ends)):
+        speed = min(speed, leg.limit)
+        end = min(slowed, leg.limit, math.sqrt(speed * speed + 2 * up * leg.length))
+        # The speed at which braking begins, if the piece is too short for its limit.
+        peak = (2 * up * down * leg.length + down * speed**2 + up * end**2) / (up + down)
+        peak = max(speed, end, min(math.sqrt(peak), leg.limit))
+        rest = leg.length - (peak**2 - speed**2) / (2 * up) - (peak**2 - end**2) / (2 * down)
+        cruise = max(0.0, rest) / peak if peak > 0 else 0.0
+        times.append((peak - speed) / up + (peak - end) / down + cruise)
+        speed = end
+    return times
 
 
 def corners(points: Sequence[Point]) -> list[Point]:
@@ -152,4 +202,4 @@ def corners(points: Sequence[Point]) -> list[Point]:
 def _in_line(a: Point, b: Point, c: Point) -> bool:
     cross = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])
     ahead = (b[0] - a[0]) * (c[0] - b[0]) + (b[1] - a[1]) * (c[1] - b[1])
-    return ahead > 0 and abs(cross) <= 0.05 * ahead
+    return ahead > 0 and abs(cross) <= STRAIGHT * ahead

@@ -65,6 +65,18 @@ class World(Protocol):
         """Publishes on /warehouse/follow."""
         ...
 
+    def follow_limited(
+        self,
+        kiva_id: int,
+        path_id: int,
+        first: int,
+        points: Sequence[Point],
+        released: int,
+        speeds: Sequence[float],
+    ) -> None:
+        """Publishes on /follow_limited."""
+        ...
+
     def lift(self, kiva_id: int, shelf_id: int, up: bool) -> None:
         """Publishes on /lift."""
         ...
@@ -99,6 +111,8 @@ class SimulatedDriver(Driver):
     """One robot of the running warehouse. `sighting`, `refusal` and `silence`, the reason why the
     world sends nothing, are set from outside."""
 
+    keeps_speeds = True
+
     def __init__(self, kiva_id: int, world: World, sheet: Factsheet | None = None) -> None:
         self.kiva_id = kiva_id
         self.sighting: Sighting | None = None
@@ -113,6 +127,18 @@ class SimulatedDriver(Driver):
         """Sends a path, or more of it."""
         self.refusal = ""
         self._world.follow(self.kiva_id, path_id, first, points, released)
+
+    def follow_limited(
+        self,
+        path_id: int,
+        first: int,
+        points: Sequence[Point],
+        released: int,
+        speeds: Sequence[float],
+    ) -> None:
+        """Sends a path with speed limits, more of it, or other limits."""
+        self.refusal = ""
+        self._world.follow_limited(self.kiva_id, path_id, first, points, released, speeds)
 
     def lift(self, unit: str, up: bool) -> None:
         """Sends a lift; a unit that is not a number refuses itself."""

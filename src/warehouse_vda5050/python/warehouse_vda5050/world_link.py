@@ -21,7 +21,9 @@ from warehouse_msgs.msg import (
     Event,
     FleetFollow,
     FleetState,
+    FollowPath,
     Lift,
+    LimitedPath,
     People,
     Scenery,
     UnitStates,
@@ -54,7 +56,7 @@ class WorldLink:
         self.chargers: frozenset[tuple[int, int]] = frozenset()
         self.grid: Grid | None = None
         self._floor_of: tuple[int, frozenset[int]] | None = None
-        topics = ("warehouse/follow", "lift", "cancel", "stop")
+        topics = ("warehouse/follow", "follow_limited", "lift", "cancel", "stop")
         self._topics = {
             topic: rospy.Publisher(topic, COMMANDS[topic], queue_size=1000) for topic in topics
         }
@@ -173,6 +175,20 @@ class WorldLink:
         x, y = zip(*points)
         message = FleetFollow([kiva_id], [path_id], [first], [len(x)], x, y, [released])
         self._publish("warehouse/follow", message)
+
+    def follow_limited(
+        self,
+        kiva_id: int,
+        path_id: int,
+        first: int,
+        points: Sequence[Point],
+        released: int,
+        speeds: Sequence[float],
+    ) -> None:
+        """Publishes on /follow_limited."""
+        x, y = zip(*points)
+        path = FollowPath(kiva_id, path_id, first, x, y, released)
+        self._publish("follow_limited", LimitedPath(path, speeds))
 
     def lift(self, kiva_id: int, shelf_id: int, up: bool) -> None:
         """Publishes on /lift."""

@@ -141,6 +141,18 @@ def test_paths_are_followed_as_far_as_they_are_released(world):
     assert "cancelled" in world.events()["text"].tolist()
 
 
+def test_speed_limits_of_paths_are_kept(world):
+    fleet = world.fleet
+    world.follow(1, 7, points=4, x=np.arange(4.0), y=np.zeros(4), max_speed=[9, np.inf, 0.2, 0.2])
+    fastest = np.zeros(3)
+    for _ in range(1500):
+        world.step(10)
+        way = int(np.clip(fleet.x[0], 0, 2.99))
+        fastest[way] = max(fastest[way], np.hypot(fleet.vx[0], fleet.vy[0]))
+    assert fleet.x[0] == pytest.approx(3, abs=1e-3)
+    assert fastest[0] > 0.5 and max(fastest[1:]) < 0.2 + 1e-6
+
+
 WRONG = [
     (lambda w: w.mov(9, 1, 1), ValueError, "no robot kiva9"),
     (lambda w: w.mov(-1, 1, 1), ValueError, "no robot kiva-1"),
@@ -159,6 +171,12 @@ WRONG = [
     (lambda w: w.follow(1, -1, x=[0], y=[0]), ValueError, "path_id: .* negative"),
     (lambda w: w.follow(1, 1, x=[0, 1], y=[0]), ValueError, "y has 1 entries, and points make 2"),
     (lambda w: w.follow(1, 1, x=[np.nan], y=[0]), ValueError, "x of command 0 is nan"),
+    (
+        lambda w: w.follow(1, 1, x=[0], y=[0], max_speed=[0]),
+        ValueError,
+        "max_speed of point 0 is 0",
+    ),
+    (lambda w: w.follow(1, 1, x=[0], y=[0], max_speed=[1, 1]), ValueError, "max_speed has 2 entr"),
     (lambda w: w.follow([1, 2], 1, points=[1], x=[0], y=[0]), ValueError, "points make 2"),
     (lambda w: w.follow([1, 2], [1, 2, 3]), ValueError, "path_id has 3"),
     (lambda w: w.cancel(9), ValueError, "no robot kiva9"),

@@ -34,6 +34,7 @@ class GridRobot(Driver):
         self.extra = {}  # fields of Report
         self.taken = False
         self.events = []
+        self.limits = {}  # speeds of the ways to points of the path, by number
 
     def follow(self, path_id, first, points, released):
         if self.deaf:
@@ -51,6 +52,12 @@ class GridRobot(Driver):
             self.refusal = "not now"
         else:
             self.path, self.path_id, self.reached, self.busy = cells, path_id, 1, True
+            self.limits = {}
+
+    def follow_limited(self, path_id, first, points, released, speeds):
+        self.follow(path_id, first, points, released)
+        if not (self.deaf or self.refusal):
+            self.limits.update(enumerate(speeds, first))
 
     def lift(self, unit, up):
         if self.deaf:
@@ -132,11 +139,19 @@ class GridRobot(Driver):
             self.events.append(("at", "", goal))
 
 
+class LimitedRobot(GridRobot):
+    """A GridRobot that keeps speed limits."""
+
+    keeps_speeds = True
+
+
 class Bench:
     """A vehicle with a GridRobot, and a clock of its own: a step is 1 s."""
 
+    robot_type = GridRobot
+
     def __init__(self, cell=(0, 0), units=None, **settings):
-        self.robot = GridRobot(cell, units)
+        self.robot = self.robot_type(cell, units)
         self.vehicle = Vehicle(self.robot, GRID, VehicleSettings(**settings))
         self.now = 0.0
         self.states = []

@@ -273,7 +273,8 @@ bool fits(const Task& task, std::size_t units) {
 
 /// Returns whether all indices of a path refer to points of it.
 bool fits(const ReleasedPath& path, std::uint32_t reached, std::uint32_t left) {
-  if (!path.isUnderWay()) return path.points.empty();
+  if (!path.isUnderWay()) return path.points.empty() && path.limits.empty();
+  if (path.isLimited() && path.limits.size() != path.points.size()) return false;
   constexpr std::size_t kMost = 0xffffffffu;
   return path.points.size() < kMost - path.first && path.first <= path.origin &&
          path.first <= left && path.origin <= path.end && path.end < path.released &&

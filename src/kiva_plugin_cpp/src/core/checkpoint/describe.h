@@ -185,8 +185,10 @@ void describe(A& a, PathPoint& p) {
 
 template <class A>
 void describe(A& a, ReleasedPath& p) {
-  DESCRIBED(ReleasedPath, 5);
+  DESCRIBED(ReleasedPath, 6);
   FIELDS(p.first, p.points, p.released, p.origin, p.end);
+  // The hash of a world without limits is what it was before there were any.
+  if (!std::is_same_v<A, Hasher> || p.isLimited()) FIELDS(within(p.limits, 0, kEndless));
 }
 
 template <class A>
@@ -440,9 +442,9 @@ void describe(A& a, Command& c) {
 
 template <class A>
 void describe(A& a, FollowPath& p) {
-  DESCRIBED(FollowPath, 7);
+  DESCRIBED(FollowPath, 8);
   FIELDS(p.kiva_id, p.path_id, p.first, within(p.x, -1e308, 1e308), within(p.y, -1e308, 1e308),
-         p.released, p.fault);
+         p.released, p.fault, within(p.max_speed, 0, kEndless));
 }
 
 template <class A>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/control/route.h"
@@ -19,6 +20,7 @@ namespace {
 constexpr double kKeepOff = 0.001;  // [m] of a robot's sides that may touch an obstacle
 constexpr double kCentred = 0.001;  // [m] within which a robot is on its point
 constexpr std::uint64_t kMostPoints = 100000;
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();  // [m/s]
 
 /// Checks a message's numbers. `known`: count of the path's points so far, of which the first
 /// `forgotten` were left. Throws Refusal.
@@ -27,6 +29,10 @@ void checkNumbers(const FollowPath& m, std::uint64_t known, std::uint64_t forgot
   if (m.path_id == 0) throw Refusal("path_id 0: another number was expected");
   if (m.x.size() != m.y.size()) {
     throw Refusal(format("%zu x and %zu y: as many of both were expected", m.x.size(), m.y.size()));
+  }
+  if (!m.max_speed.empty() && m.max_speed.size() != m.x.size()) {
+    throw Refusal(format("%zu x and %zu max_speed: as many of both, or no max_speed, were expected",
+                         m.x.size(), m.max_speed.size()));
   }
   if (m.first > known) {
     throw Refusal(format("first %u: the path has %u points so far, so that some are missing",
@@ -145,6 +151,27 @@ std::vector<PathPoint> checkedChange(const Scene& world, int robot, const Follow
   return points;
 }
 
+bool isLimit(double speed) { return std::isfinite(speed); }
+
+/// Returns the speed limits of a path after a message with these points; empty if none is finite.
+std::vector<double> limitsAfter(const ReleasedPath& path, const FollowPath& m,
+                                const std::vector<PathPoint>& points) {
+  std::vector<double> limits = path.limits;
+  if (points.empty() || (limits.empty() && m.max_speed.empty())) return limits;
+  const auto old = [&](std::uint32_t number) {
+    return path.isLimited() ? path.limitTo(number) : kNoLimit;
+  };
+  limits.resize(std::max(path.first, m.first) - path.first, kNoLimit);
+  for (auto number = path.first + static_cast<std::uint32_t>(limits.size());
+       number < m.first + points.size(); ++number) {
+    const std::size_t k = number - m.first;
+    const bool is_known = number < path.size() && isSame(points[k], path[number]);
+    limits.push_back(!m.max_speed.empty() ? m.max_speed[k] : is_known ? old(number) : kNoLimit);
+  }
+  if (std::none_of(limits.begin(), limits.end(), isLimit)) limits.clear();
+  return limits;
+}
+
 /// The end of the present run, and the distance to it along the run.
 struct RunEnd {
   std::uint32_t point;
@@ -203,6 +230,7 @@ void startPath(TaskView& world, int robot, std::uint32_t number, const FollowPat
     if (k > 0) checkLink(world, robot, path.points[k - 1], path.points[k], k);
   }
   path.released = m.released;
+  path.limits = limitsAfter({}, m, path.points);
   checkTurns(world.fleet, robot, path.points);
   const Point begin{path.points[0].x, path.points[0].y};
   Route route(world, robot, &begin);
@@ -230,6 +258,9 @@ void changePath(TaskView& world, Obstacles& obstacles, int robot, const FollowPa
   const std::vector<PathPoint> points = checkedChange(world, robot, m);
   checkTurns(world.fleet, robot, points);
 
+  const bool was_limited = path.isLimited();
+  path.limits = limitsAfter(path, m, points);
+  if (was_limited || path.isLimited()) moved(world.fleet, robot);
   const std::uint32_t kept = std::max(path.first, m.first);
   if (!points.empty()) {
     path.points.resize(kept - path.first);

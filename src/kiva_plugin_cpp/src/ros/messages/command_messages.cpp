@@ -92,6 +92,12 @@ kiva::FollowPath fromMessage(const warehouse_msgs::FollowPath& message) {
   return out;
 }
 
+kiva::FollowPath fromMessage(const warehouse_msgs::LimitedPath& message) {
+  kiva::FollowPath out = fromMessage(message.path);
+  out.max_speed = message.max_speed;
+  return out;
+}
+
 Orders fromMessage(const warehouse_msgs::FleetFollow& message) {
   Orders out;
   kiva::FollowPath wrong;
@@ -175,6 +181,13 @@ warehouse_msgs::FollowPath toMessage(const kiva::FollowPath& path) {
   out.x = path.x;
   out.y = path.y;
   out.released = path.released;
+  return out;
+}
+
+warehouse_msgs::LimitedPath toLimitedPath(const kiva::FollowPath& path) {
+  warehouse_msgs::LimitedPath out;
+  out.path = toMessage(path);
+  out.max_speed = path.max_speed;
   return out;
 }
 

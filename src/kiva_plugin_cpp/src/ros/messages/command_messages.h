@@ -8,6 +8,7 @@
 #include <warehouse_msgs/FleetOrders.h>
 #include <warehouse_msgs/FollowPath.h>
 #include <warehouse_msgs/Lift.h>
+#include <warehouse_msgs/LimitedPath.h>
 #include <warehouse_msgs/MoveAlong.h>
 #include <warehouse_msgs/MoveTo.h>
 #include <warehouse_msgs/Rotate.h>
@@ -24,6 +25,7 @@ kiva::Command fromMessage(const warehouse_msgs::Lift& message);
 kiva::Command fromMessage(const warehouse_msgs::Cancel& message);
 kiva::Command fromMessage(const warehouse_msgs::Stop& message);
 kiva::FollowPath fromMessage(const warehouse_msgs::FollowPath& message);
+kiva::FollowPath fromMessage(const warehouse_msgs::LimitedPath& message);
 /// Returns an order for every robot; if the arrays disagree, a single order that states this fault.
 Orders fromMessage(const warehouse_msgs::FleetFollow& message);
 /// Returns cancellations first, then paths, then lifts.
@@ -36,6 +38,7 @@ warehouse_msgs::Lift toLift(const kiva::Command& command);
 warehouse_msgs::Cancel toCancel(const kiva::Command& command);
 warehouse_msgs::Stop toStop(const kiva::Command& command);
 warehouse_msgs::FollowPath toMessage(const kiva::FollowPath& path);
+warehouse_msgs::LimitedPath toLimitedPath(const kiva::FollowPath& path);
 
 /// Passes a type as a value.
 template <typename T>
@@ -59,6 +62,7 @@ void forEachCommandTopic(Visit visit) {
   visit(MessageType<warehouse_msgs::Rotate>(), "rot", as_is);
   visit(MessageType<warehouse_msgs::Lift>(), "lift", as_is);
   visit(MessageType<warehouse_msgs::FollowPath>(), "follow", as_is);
+  visit(MessageType<warehouse_msgs::LimitedPath>(), "follow_limited", as_is);
   visit(MessageType<warehouse_msgs::FleetFollow>(), "warehouse/follow", each);
   visit(MessageType<warehouse_msgs::Cancel>(), "cancel", as_is);
   visit(MessageType<warehouse_msgs::Stop>(), "stop", as_is);

@@ -160,6 +160,9 @@ void Recorder::write(const kiva::Command& command) {
   }
 }
 
-void Recorder::write(const kiva::FollowPath& path) { write("/follow", toMessage(path)); }
+void Recorder::write(const kiva::FollowPath& path) {
+  if (path.max_speed.empty()) return write("/follow", toMessage(path));
+  write("/follow_limited", toLimitedPath(path));
+}
 
 }  // namespace kiva_ros

@@ -4,6 +4,7 @@
 //
 //   /mov /movx /movy /rot /lift  the commands; what came on /warehouse/follow for many robots
 //   /follow /cancel /stop        is written as one /follow for each
+//   /follow_limited              a path with speed limits
 //   /warehouse/state_hash        of every simulated second, of every second, and of the end
 //   whatever a plugin hears      /cmd_vel for instance, as it took effect
 //   /warehouse/shadows           where robots are that are elsewhere, as it took effect

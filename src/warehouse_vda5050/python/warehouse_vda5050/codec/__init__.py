@@ -21,10 +21,25 @@ class VersionError(ValueError):
 def codec_for(version: str = DEFAULT_VERSION, strict: bool = False) -> Codec:
     """Returns the codec of a version, which accepts common deviations unless it is strict. Raises
     VersionError."""
-    if version not in VERSIONS:
-        raise VersionError(f"version is {version!r}; one of {', '.join(VERSIONS)} was expected")
+    version = full_version(version)
     kind = CodecV3 if version.startswith("3") else CodecV2
     return kind(version, strict)
 
 
-__all__ = ["DEFAULT_VERSION", "VERSIONS", "Codec", "Decoded", "VersionError", "codec_for"]
+def full_version(text: str) -> str:
+    """Returns a version as messages have it, 2.1.0 for 2.1. Raises VersionError."""
+    for version in VERSIONS:
+        if text in (version, version.removesuffix(".0")):
+            return version
+    raise VersionError(f"version is {text!r}; one of {', '.join(VERSIONS)} was expected")
+
+
+__all__ = [
+    "DEFAULT_VERSION",
+    "VERSIONS",
+    "Codec",
+    "Decoded",
+    "VersionError",
+    "codec_for",
+    "full_version",
+]

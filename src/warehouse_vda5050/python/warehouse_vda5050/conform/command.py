@@ -12,7 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from warehouse_vda5050.codec import VERSIONS, codec_for
+from warehouse_vda5050.codec import codec_for, full_version
 from warehouse_vda5050.conform import ground
 from warehouse_vda5050.conform.broker import Broker, UnreachableError
 from warehouse_vda5050.conform.case import Case
@@ -83,7 +83,7 @@ def main() -> None:
     parser = arguments()
     options = parser.parse_args()
     try:
-        version = _version(options.version)
+        version = full_version(options.version)
         known = (master_cases_of if options.master else cases_of)(version, options.strict)
         cases = _chosen(known, options.only)
         if options.list:
@@ -95,13 +95,6 @@ def main() -> None:
     except (NoVehicleError, UnreachableError) as error:
         print(f"conform: {error}", file=sys.stderr)
         sys.exit(NOT_TRIED)
-
-
-def _version(text: str) -> str:
-    for version in VERSIONS:
-        if text in (version, version.removesuffix(".0")):
-            return version
-    raise ValueError(f"version is {text!r}; 2.0, 2.1 or 3.0 was expected")
 
 
 def _chosen(cases: list[Case], only: list[str]) -> list[Case]:

@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
+from datetime import datetime
 from typing import Any
 
 Json = dict[str, Any]
@@ -71,3 +74,25 @@ def at(state: Json) -> tuple[float, float] | None:
         return float(position["x"]), float(position["y"])  # type: ignore[index]
     except (TypeError, KeyError, ValueError):
         return None
+
+
+def fastest_on(states: Iterable[Json], order: Json, edge: int) -> float:
+    """Returns the highest speed of a vehicle on an edge of an order that it has driven [m/s]: that
+    of its states there; by their times, if none has a velocity. Those are of the broker's clock,
+    and simulated vehicles may be faster by that."""
+    start, end = order["nodes"][edge : edge + 2]
+    own = [state for state in states if has(state, order)]
+    begun = [state for state in own if reached(state) >= start["sequenceId"]]
+    after = [state for state in begun if reached(state) >= end["sequenceId"]]
+    # The first state may be of the moment in which the node is reached.
+    within = begun[1 : len(begun) - len(after)]
+    velocities = [v for state in within if isinstance(v := state.get("velocity"), dict)]
+    speeds = [math.hypot(v.get("vx", 0.0), v.get("vy", 0.0)) for v in velocities]
+    return max(speeds) if speeds else _mean_speed(start, end, begun[0], after[0])
+
+
+def _mean_speed(start: Json, end: Json, first: Json, last: Json) -> float:
+    a, b = start["nodePosition"], end["nodePosition"]
+    begin, over = (datetime.fromisoformat(str(s["timestamp"])) for s in (first, last))
+    duration = (over - begin).total_seconds()
+    return math.hypot(b["x"] - a["x"], b["y"] - a["y"]) / max(duration, 0.1)

@@ -19,6 +19,7 @@ class FaultyDriver(Driver):
 
     def __init__(self, driver: Driver, faults: ActiveFaults) -> None:
         self._driver, self._faults = driver, faults
+        self.keeps_speeds = driver.keeps_speeds
         self._paused = False  # by the core
         self._held = False  # by a fault
         self._controlled_at = self._release_at = 0.0
@@ -85,6 +86,17 @@ class FaultyDriver(Driver):
     def follow(self, path_id: int, first: int, points: Sequence[Point], released: int) -> None:
         """Drives a path, or extends the one under way."""
         self._driver.follow(path_id, first, points, released)
+
+    def follow_limited(
+        self,
+        path_id: int,
+        first: int,
+        points: Sequence[Point],
+        released: int,
+        speeds: Sequence[float],
+    ) -> None:
+        """Drives a path with speed limits, extends it, or changes its limits."""
+        self._driver.follow_limited(path_id, first, points, released, speeds)
 
     def lift(self, unit: str, up: bool) -> None:
         """Lifts the unit that stands here, or puts it down."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from warehouse_vda5050.driver import Point
-from warehouse_vda5050.master.commands import RefusedError, UnfitError
+from warehouse_vda5050.master.commands import Follow, RefusedError, UnfitError
 from warehouse_vda5050.master.load_fit import OWN_TYPE, LoadChoice, UnitMeasures, choose_load
 from warehouse_vda5050.master.text_limits import nodes_within
 from warehouse_vda5050.master.whereabouts import FASTEST
@@ -69,6 +69,16 @@ class Abilities:
             raise RefusedError(
                 f"its factsheet requires {', '.join(lacking)} in orders, which this master does not"
                 " send"
+            )
+
+    def check_speeds(self, command: Follow) -> None:
+        """Raises RefusedError for speed limits that the vehicle does not say that it keeps."""
+        if self.sheet is None or not command.is_limited:
+            return
+        if SPEED.isdisjoint(name.rsplit(".", 1)[-1] for name, *_ in self.sheet.parameters):
+            raise RefusedError(
+                "its factsheet does not name maxSpeed of edges among optionalParameters, so that"
+                " speed limits may not be kept"
             )
 
     def edge_demands(self, start: Point, end: Point) -> tuple[tuple[str, float], ...]:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The commands of this project to a robot, as plain values."""
 
+import math
 from dataclasses import dataclass
 
 from warehouse_vda5050.driver import Point
@@ -20,12 +21,19 @@ class UnfitError(RefusedError):
 
 @dataclass(frozen=True)
 class Follow:
-    """A path or a change of one, as warehouse_msgs/FollowPath: points in the frame world [m]."""
+    """A path or a change of one, as warehouse_msgs/FollowPath: points in the frame world [m].
+    speeds: as warehouse_msgs/LimitedPath has them, none for no limits [m/s]."""
 
     path_id: int
     first: int
     points: tuple[Point, ...]
     released: int
+    speeds: tuple[float, ...] = ()
+
+    @property
+    def is_limited(self) -> bool:
+        """Whether it has a speed limit."""
+        return any(map(math.isfinite, self.speeds))
 
 
 @dataclass(frozen=True)

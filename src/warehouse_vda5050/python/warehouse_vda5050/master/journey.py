@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A path as orders: point i is node 2i, the way from it to the next one is edge 2i + 1."""
 
+import itertools
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
@@ -38,6 +40,7 @@ class Journey:
     lift: Lift | None = None  # that it is made for
     heading: float | None = None  # of a path that is to put the vehicle straight [rad]
     edge_demands: EdgeDemands = field(default=lambda _start, _end: (), repr=False)
+    speeds: list[float] = field(default_factory=list)  # limit on the way to each point [m/s]
     disputes: int = 0  # changes in a row that were refused
     max_nodes: int = 1000  # of one message; what is beyond comes in the next
 
@@ -47,7 +50,7 @@ class Journey:
             raise RefusedError(
                 f"{self.released} points are released; over VDA 5050 none can be taken back"
             )
-        points = self.points
+        points, speeds = self.points, self.speeds
         if command.points:
             repeated = points[command.first : self.released]  # as a path that is cut off has them
             if command.first > len(points) or [*command.points[: len(repeated)]] != repeated:
@@ -56,11 +59,14 @@ class Journey:
                     f" {self.released} of {len(self.points)} are released"
                 )
             points = [*self.points[: command.first], *command.points]
+            speeds = speeds_after(self, command)
         if command.released > len(points):
             raise RefusedError(f"{command.released} of {len(points)} points can't be released")
-        if (points, command.released) == (self.points, self.released) and not self.is_refused:
+        wanted, known = (points, speeds, command.released), (self.points, self.speeds, self.released)
+        if wanted == known and not self.is_refused:
             return
-        self.points, self.released, self.is_changed = points, command.released, True
+        self.points, self.speeds = points, speeds
+        self.released, self.is_changed = command.released, True
 
     @property
     def straightens(self) -> bool:
@@ -129,9 +135,14 @@ class Journey:
 
     def _edge(self, i: int, place: PlaceNode) -> Edge:
         start, end = (place(point)[0] for point in self.points[i : i + 2])
-        demands = self.edge_demands(*self.points[i : i + 2])
+        demands = dict(self.edge_demands(*self.points[i : i + 2]))
+        limit = min(self.speeds[i + 1], demands.get("maxSpeed", math.inf))
+        if math.isfinite(limit):
+            demands["maxSpeed"] = limit
         released = i + 1 < self.released
-        return Edge(f"{start}-{end}", 2 * i + 1, released, start, end, demands=demands)
+        return Edge(
+            f"{start}-{end}", 2 * i + 1, released, start, end, demands=tuple(demands.items())
+        )
 
 
 def begin(command: Follow, order_id: str, heading: float) -> Journey:
@@ -142,4 +153,18 @@ def begin(command: Follow, order_id: str, heading: float) -> Journey:
     if not 1 <= command.released <= len(command.points):
         raise RefusedError(f"{command.released} of {len(command.points)} points can't be released")
     points = list(command.points)
-    return Journey(command.path_id, order_id, points, command.released, heading=heading)
+    way = Journey(command.path_id, order_id, points, command.released, heading=heading)
+    way.speeds = [*command.speeds] or [math.inf] * len(points)
+    return way
+
+
+def speeds_after(way: Journey, command: Follow) -> list[float]:
+    """Returns a journey's speed limits after a command: where that has none, known points keep
+    theirs."""
+    first = command.first
+    if command.speeds:
+        return [*way.speeds[:first], *command.speeds]
+    known = zip(way.points[first:], way.speeds[first:])
+    olds = itertools.zip_longest(known, command.points)
+    new = [old[1] if old and old[0] == point else math.inf for old, point in olds if point]
+    return [*way.speeds[:first], *new]

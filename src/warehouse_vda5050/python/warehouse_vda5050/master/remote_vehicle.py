@@ -261,6 +261,7 @@ class RemoteVehicle:
             )
 
     def _follow(self, command: Follow) -> None:
+        self.abilities.check_speeds(command)
         way = self._journey
         if way and not way.lift and command.path_id == way.path_id:
             if self._phase is Phase.CANCELLING:

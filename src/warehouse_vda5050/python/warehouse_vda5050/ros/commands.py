@@ -19,6 +19,7 @@ from warehouse_msgs.msg import (
     FleetOrders,
     FollowPath,
     Lift,
+    LimitedPath,
     Stop,
 )
 from warehouse_vda5050.master import commands
@@ -49,6 +50,7 @@ class CommandTopics:
         self._numbers, self._post, self._timeline = numbers, post, timeline
         for topic, kind, take in (
             ("follow", FollowPath, self._on_follow),
+            ("follow_limited", LimitedPath, self._on_limited),
             ("warehouse/follow", FleetFollow, self._on_fleet_follow),
             ("warehouse/fleet_orders", FleetOrders, self._on_orders),
             ("cancel", Cancel, self._on_cancel),
@@ -65,6 +67,13 @@ class CommandTopics:
     def _on_follow(self, m: FollowPath) -> None:
         follow = commands.Follow(m.path_id, m.first, tuple(zip(m.x, m.y)), m.released)
         self._send(m.kiva_id, follow)
+
+    def _on_limited(self, message: LimitedPath) -> None:
+        m, speeds = message.path, tuple(message.max_speed)
+        if speeds and len(speeds) != len(m.x) or not all(speed > 0 for speed in speeds):
+            return  # the world refuses it with the reason
+        points = tuple(zip(m.x, m.y))
+        self._send(m.kiva_id, commands.Follow(m.path_id, m.first, points, m.released, speeds))
 
     def _on_fleet_follow(self, message: FleetFollow) -> None:
         for kiva_id, follow in paths_of(message):

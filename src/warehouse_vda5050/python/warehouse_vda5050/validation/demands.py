@@ -12,7 +12,7 @@ from typing import Any
 
 from warehouse_vda5050.errors import ErrorType, Predefined
 from warehouse_vda5050.grid import Cell, Grid
-from warehouse_vda5050.model import Edge, Factsheet, Node, VehicleOrder
+from warehouse_vda5050.model import LEAST_SPEED, Edge, Factsheet, Node, VehicleOrder
 from warehouse_vda5050.validation import MessageError
 
 
@@ -82,8 +82,12 @@ def _check_edge(order: VehicleOrder, index: int, stretch: Stretch) -> None:
 
 
 def _max_speed(value: float, on: Stretch) -> str:
+    if not LEAST_SPEED <= value < math.inf:
+        return f"the robot drives at {LEAST_SPEED:g} m/s or more"
     top = on.robot.sheet.max_speed
-    return "" if value >= top else f"the robot drives at up to {top:g} m/s on every edge"
+    if value >= top or on.robot.sheet.keeps_speeds:
+        return ""
+    return f"the robot drives at up to {top:g} m/s on every edge"
 
 
 def _max_height(value: float, on: Stretch) -> str:

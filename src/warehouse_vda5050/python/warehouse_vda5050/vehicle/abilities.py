@@ -6,6 +6,7 @@ from dataclasses import replace
 from warehouse_vda5050.field_rules import TABLE, Use
 from warehouse_vda5050.model import BlockingType, Factsheet, SupportedAction
 from warehouse_vda5050.zones.store import MAX_ZONES, SUPPORTED
+from warehouse_vda5050.zones.zone import ZoneType
 
 ANY: tuple[BlockingType, ...] = (*BlockingType,)
 LIFTING = (
@@ -91,6 +92,13 @@ PARAMETERS = (
 )
 
 
+def _without_speeds(parameter: tuple[str, str, str]) -> tuple[str, str, str]:
+    name, support, text = parameter
+    if name != "order.edges.maxSpeed":
+        return parameter
+    return name, support, "checked: refused below the robot's own top speed"
+
+
 ZONE_ACTIONS = (
     _instant(
         "enableZoneSet",
@@ -105,10 +113,13 @@ ZONE_ACTIONS = (
 )
 
 
-def completed(sheet: Factsheet, zones: bool = False) -> Factsheet:
-    """Returns a driver's factsheet with what the core can; zones: whether it takes zone sets."""
-    sheet = replace(sheet, actions=ACTIONS, parameters=PARAMETERS)
+def completed(sheet: Factsheet, zones: bool = False, keeps_speeds: bool = False) -> Factsheet:
+    """Returns a driver's factsheet with what the core can; zones: whether it takes zone sets.
+    keeps_speeds: whether the driver slows down for speed limits."""
+    parameters = PARAMETERS if keeps_speeds else tuple(map(_without_speeds, PARAMETERS))
+    sheet = replace(sheet, actions=ACTIONS, parameters=parameters, keeps_speeds=keeps_speeds)
     if not zones:
         return sheet
-    actions, types = (*ACTIONS, *ZONE_ACTIONS), tuple(kind.value for kind in SUPPORTED)
+    kinds = [kind for kind in SUPPORTED if keeps_speeds or kind is not ZoneType.SPEED_LIMIT]
+    actions, types = (*ACTIONS, *ZONE_ACTIONS), tuple(kind.value for kind in kinds)
     return replace(sheet, actions=actions, zone_types=types, max_zones=MAX_ZONES)

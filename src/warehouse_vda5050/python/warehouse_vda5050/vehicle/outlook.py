@@ -2,6 +2,7 @@
 """Where a vehicle says that it will drive, and when it will be there (6.8 of 3.0.0)."""
 
 import math
+from collections.abc import Sequence
 
 from warehouse_vda5050.driver import Report
 from warehouse_vda5050.grid import Grid
@@ -26,23 +27,24 @@ def intermediate_path(
     report: Report,
     sheet: Factsheet,
     limit: int | None,
+    speeds: Sequence[float],
     wall: float,
 ) -> tuple[Waypoint, ...]:
-    """Returns when the robot will be at the corners of its way, up to where it stands next: for an
-    action, at a zone that it waits for, at the end of its base. Nothing of a robot that is held:
-    when it goes on is not known. wall: the time [s since 1970]."""
+    """Returns when the robot will be at the corners of its way, and where its speed limit changes,
+    up to where it stands next: for an action, at a zone that it waits for, at the end of its base.
+    Nothing of a robot that is held: when it goes on is not known. speeds: the highest on each edge
+    of the base [m/s]. wall: the time [s since 1970]."""
     if report.blocked or report.stopped:
         return ()
     end = order.base_end if limit is None else min(limit, order.base_end)
     stop = next((k for k in range(1, end + 1) if holds_at(order.nodes[k])), end)
-    points = corners(_points(order, grid, report, stop))[:LONGEST]
-    if len(points) < 2:
-        return ()
+    points = _points(order, grid, report, stop)[:LONGEST]
     motion = Motion(
         sheet.max_speed, sheet.max_acceleration, sheet.max_deceleration, sheet.quarter_turn
     )
     yaw = math.remainder(report.yaw, math.tau)
-    return tuple(waypoints(points, yaw, report.speed, motion, wall))
+    way = waypoints(points, speeds, yaw, report.speed, motion, wall)
+    return tuple(way) if len(way) > 1 else ()
 
 
 def _points(

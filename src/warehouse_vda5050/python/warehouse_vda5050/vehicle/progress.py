@@ -5,6 +5,8 @@ A base is never changed nor taken back: an update has to repeat the released nod
 one on, and replaces the horizon alone.
 """
 
+import math
+
 from warehouse_vda5050.errors import ErrorType, Predefined
 from warehouse_vda5050.grid import Cell
 from warehouse_vda5050.model import Edge, EdgeState, Node, NodeState, VehicleOrder
@@ -32,6 +34,11 @@ class OrderProgress:
     def base_end(self) -> int:
         """Index of the last released node."""
         return sum(node.released for node in self.nodes) - 1
+
+    def speeds(self) -> list[float]:
+        """Returns the highest speed on each edge of the base [m/s]; inf where it has no limit."""
+        edges = self.edges[: self.base_end]
+        return [dict(edge.demands).get("maxSpeed", math.inf) for edge in edges]
 
     @property
     def has_horizon(self) -> bool:

@@ -7,6 +7,8 @@ vehicle.update(now)                # ten times a second
 state = vehicle.take_state(now)    # to be sent, None if there is nothing new
 """
 
+import itertools
+import math
 from typing import Any
 
 from warehouse_vda5050.driver import Driver, Report
@@ -53,7 +55,9 @@ class Vehicle:
     def __init__(self, driver: Driver, grid: Grid, settings: VehicleSettings | None = None) -> None:
         self.driver, self.grid = driver, grid
         self.settings = settings or VehicleSettings()
-        self.sheet = completed(driver.factsheet(), self.settings.zones)
+        self.sheet = completed(
+            driver.factsheet(), self.settings.zones, keeps_speeds=driver.keeps_speeds
+        )
         self.zones = ZoneGuard(self.sheet, self.settings.name) if self.settings.zones else None
         self.report: Report | None = None
         self.order: OrderProgress | None = None
@@ -173,7 +177,16 @@ class Vehicle:
         order = self.order
         stays = self.actions.holds_driving or self.actions.failed
         if order and not order.is_driven and not stays and self.phase is Phase.WORKING:
-            self.wheels.drive(order, report, now, self.zones.limit if self.zones else None)
+            limit = self.zones.limit if self.zones else None
+            self.wheels.drive(order, report, now, limit, self._speeds(order))
+
+    def _speeds(self, order: OrderProgress) -> list[float]:
+        """Returns the highest speed on each edge of the base, by order and zones [m/s];
+        inf where that is no limit to the robot."""
+        speeds = order.speeds()
+        zones = self.zones.speeds if self.zones else ()
+        lowest = map(min, itertools.zip_longest(speeds, zones, fillvalue=math.inf))
+        return [speed if speed < self.sheet.max_speed else math.inf for speed in lowest]
 
     @property
     def _driven_order(self) -> OrderProgress | None:
@@ -338,8 +351,9 @@ class Vehicle:
         planned = planned_path(order, self.grid, report)
         limit, wall = self.zones.limit, self.zones.clock()
         held = self.paused or self.actions.holds_driving or bool(self.wheels.fault)
-        soon = () if held else intermediate_path(order, self.grid, report, self.sheet, limit, wall)
-        return {"planned": planned, "intermediate": soon}
+        speeds = self._speeds(order)
+        soon = intermediate_path(order, self.grid, report, self.sheet, limit, speeds, wall)
+        return {"planned": planned, "intermediate": () if held else soon}
 
     def _situation(self) -> Situation:
         return Situation(

@@ -5,7 +5,9 @@ A leg is one path of the driver: it ends where the robot has to stand for an act
 lengthened while it is under way. What was sent is sent again until the robot's report shows it.
 """
 
-from dataclasses import dataclass
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 
 from warehouse_vda5050.driver import Driver, Point, Report
 from warehouse_vda5050.grid import Cell, Grid, GridError
@@ -18,7 +20,8 @@ RETRY = 5.0  # time from a refusal to the next attempt [s]
 
 @dataclass
 class Leg:
-    """A path given to the driver; `counted` of its points were taken as passed."""
+    """A path given to the driver; `counted` of its points were taken as passed. `speeds`: the
+    highest on the way to each of its points [m/s]; empty as long as no limit was given."""
 
     path_id: int
     points: list[Point]
@@ -26,6 +29,7 @@ class Leg:
     counted: int = 1
     heard: bool = False
     is_cut: bool = False  # to end at the next grid point
+    speeds: list[float] = field(default_factory=list)
 
 
 class Wheels:
@@ -74,10 +78,16 @@ class Wheels:
         return passed
 
     def drive(
-        self, order: OrderProgress, report: Report, now: float, limit: int | None = None
+        self,
+        order: OrderProgress,
+        report: Report,
+        now: float,
+        limit: int | None = None,
+        speeds: Sequence[float] = (),
     ) -> None:
         """Begins a leg, lengthens it, or sends it again if it was not heard. limit: index of the
-        last node that may be driven to, None: any; a leg that leads beyond is cut."""
+        last node that may be driven to, None: any; a leg that leads beyond is cut. speeds: the
+        highest on each edge of the base [m/s], empty for no limits."""
         goal = self._goal(order)
         leg = self._leg
         if limit is not None:
@@ -89,12 +99,12 @@ class Wheels:
             return
         if leg is None:
             if goal and not report.busy and now >= self._retry_at:
-                self._begin_leg(order, report, goal, now)
+                self._begin_leg(order, report, goal, now, speeds)
         elif not leg.heard and now - leg.sent > PATIENCE:
             leg.sent = now
-            self._driver.follow(leg.path_id, 0, leg.points, len(leg.points))
+            self._send(leg, 0)
         else:
-            self._lengthen(leg, order, goal)
+            self._lengthen(leg, order, goal, speeds)
 
     def _goal(self, order: OrderProgress) -> int:
         """Returns the index of the node that the robot may drive to."""
@@ -103,7 +113,14 @@ class Wheels:
                 return k
         return order.base_end
 
-    def _begin_leg(self, order: OrderProgress, report: Report, goal: int, now: float) -> None:
+    def _begin_leg(
+        self,
+        order: OrderProgress,
+        report: Report,
+        goal: int,
+        now: float,
+        speeds: Sequence[float],
+    ) -> None:
         here = self.grid.cell_at(report.x, report.y)
         try:
             way = self.grid.between(order.cells[0], order.cells[1])
@@ -118,16 +135,28 @@ class Wheels:
         points = self._points([here, *order.cells[1 : goal + 1]])
         self._leg, self._cancelled_at = Leg(self._next_path, points, now), None
         self._next_path = self._next_path % 0xFFFFFFFF + 1
-        self._driver.follow(self._leg.path_id, 0, points, len(points))
+        self._leg.speeds = _speeds_of(self._leg, speeds)
+        self._send(self._leg, 0)
 
-    def _lengthen(self, leg: Leg, order: OrderProgress, goal: int) -> None:
+    def _lengthen(self, leg: Leg, order: OrderProgress, goal: int, speeds: Sequence[float]) -> None:
         # Point `counted - 1` of the leg is the order's node 0, the last passed one.
         beyond = len(leg.points) - leg.counted
-        if goal <= beyond:
-            return
-        first, points = len(leg.points), self._points(order.cells[beyond + 1 : goal + 1])
-        leg.points += points
-        self._driver.follow(leg.path_id, first, points, len(leg.points))
+        first = len(leg.points)
+        if goal > beyond:
+            leg.points += self._points(order.cells[beyond + 1 : goal + 1])
+        before, leg.speeds = leg.speeds, _speeds_of(leg, speeds)
+        if before[leg.counted : first] != leg.speeds[leg.counted : first]:
+            self._send(leg, leg.counted - 1)  # other limits for what was sent
+        elif goal > beyond:
+            self._send(leg, first)
+
+    def _send(self, leg: Leg, first: int) -> None:
+        """Sends the points of a leg from number `first` on."""
+        points, count = leg.points[first:], len(leg.points)
+        if leg.speeds:
+            self._driver.follow_limited(leg.path_id, first, points, count, leg.speeds[first:])
+        else:
+            self._driver.follow(leg.path_id, first, points, count)
 
     def _points(self, cells: list[Cell]) -> list[Point]:
         return [self.grid.position(cell) for cell in cells]
@@ -137,3 +166,13 @@ class Wheels:
         if self._leg and (self._cancelled_at is None or now - self._cancelled_at > PATIENCE):
             self._cancelled_at = now
             self._driver.cancel()
+
+
+def _speeds_of(leg: Leg, speeds: Sequence[float]) -> list[float]:
+    """Returns the highest speed on the way to each point of a leg; empty if it never had limits."""
+    ahead = [*speeds[: len(leg.points) - leg.counted]]
+    if not leg.speeds and all(map(math.isinf, ahead)):
+        return []
+    passed = leg.speeds[: leg.counted] or [math.inf] * leg.counted
+    lacking = len(leg.points) - len(passed) - len(ahead)
+    return [*passed, *ahead, *[math.inf] * lacking]

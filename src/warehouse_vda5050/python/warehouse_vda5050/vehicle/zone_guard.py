@@ -27,9 +27,10 @@ class ZoneGuard:
 
     def __init__(self, sheet: Factsheet, name: str, clock: Callable[[], float] = time.time) -> None:
         self._sheet, self.clock = sheet, clock
-        self.store = ZoneStore()
+        self.store = ZoneStore(sheet.zone_types)
         self.releases = Releases(name)
         self.limit: int | None = None  # index of the last node that may be driven to, None: any
+        self.speeds: list[float] = []  # the highest on each edge of the base [m/s]; inf = any
         self._inside: list[Zone] = []
         self._errors: list[Error] = []
 
@@ -77,12 +78,13 @@ class ZoneGuard:
 
     def update(self, order: OrderProgress | None, grid: Grid, report: Report) -> None:
         """Sees where the robot is and what is before it; order: None if none is under way."""
-        self.limit, self._errors, self._inside = None, [], []
+        self.limit, self.speeds, self._errors, self._inside = None, [], [], []
         zones = self.store.enabled
         if zones is None:
             return
         self._inside = [zone for zone in zones.zones if self._is_in(zone, report)]
         way = self._way(order, grid, report) if order else []
+        self.speeds = [self._speed_on(stretch) for stretch in way]
         needed = self._needed(way)
         soon = itertools.chain(*needed[: _near(way)])
         within = [zone for zone in self._inside if zone.type is ZoneType.RELEASE]
@@ -107,6 +109,11 @@ class ZoneGuard:
         """Returns the RELEASE zones that the robot enters on each stretch."""
         release = [zone for zone in self._zones if zone.type is ZoneType.RELEASE]
         return [[zone for zone in release if stretch.enters(zone)] for stretch in way]
+
+    def _speed_on(self, stretch: Stretch) -> float:
+        """Returns the highest speed on a stretch, on which the contour may enter zones [m/s]."""
+        limits = [zone for zone in self._zones if zone.type is ZoneType.SPEED_LIMIT]
+        return min((zone.number for zone in limits if stretch.enters(zone)), default=math.inf)
 
     def _limit_to(
         self, order: OrderProgress, way: Sequence[Stretch], needed: Sequence[Sequence[Zone]]

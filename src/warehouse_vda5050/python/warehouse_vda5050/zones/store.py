@@ -1,25 +1,33 @@
 # SPDX-License-Identifier: Apache-2.0
 """The zone sets that a vehicle has, of its one map; at most one is enabled."""
 
-from collections.abc import Iterable
+import math
+from collections.abc import Collection, Iterable
 
 from warehouse_vda5050.errors import ErrorType, Predefined
-from warehouse_vda5050.model import MAP_ID, ZoneSet
+from warehouse_vda5050.model import LEAST_SPEED, MAP_ID, ZoneSet
 from warehouse_vda5050.topics import Kind
 from warehouse_vda5050.validation import MessageError
 from warehouse_vda5050.zones.zone import Zone, ZoneSetState, ZoneType
 
-# SPEED_LIMIT is not among them: the robots have one top speed.
-SUPPORTED = (ZoneType.BLOCKED, ZoneType.RELEASE, ZoneType.DIRECTED, ZoneType.BIDIRECTED)
+SUPPORTED = (
+    ZoneType.BLOCKED,
+    ZoneType.RELEASE,
+    ZoneType.SPEED_LIMIT,
+    ZoneType.DIRECTED,
+    ZoneType.BIDIRECTED,
+)
 MAX_ZONES = 1000  # of one set
 MAX_SETS = 20
 Reference = tuple[str, str]
 
 
 class ZoneStore:
-    """Zone sets by their ids. enable() and delete() return why not, or ''."""
+    """Zone sets by their ids. enable() and delete() return why not, or ''. types: the types of
+    zones that the vehicle keeps to."""
 
-    def __init__(self) -> None:
+    def __init__(self, types: Collection[str] = SUPPORTED) -> None:
+        self._types = types
         self._sets: dict[str, ZoneSet] = {}
         self.enabled: ZoneSet | None = None
 
@@ -35,7 +43,7 @@ class ZoneStore:
         if len(self._sets) >= MAX_SETS or len(zones.zones) > MAX_ZONES:
             text = f"{MAX_SETS} zone sets of {MAX_ZONES} zones are the most"
             _refuse(text, refer, Predefined.INSUFFICIENT_MEMORY)
-        _check_zones(zones.zones, refer)
+        _check_zones(zones.zones, refer, self._types)
         self._sets[zones.id] = zones
 
     def enable(self, id: str) -> str:
@@ -65,7 +73,9 @@ class ZoneStore:
         )
 
 
-def _check_zones(zones: Iterable[Zone], refer: tuple[Reference, ...]) -> None:
+def _check_zones(
+    zones: Iterable[Zone], refer: tuple[Reference, ...], types: Collection[str]
+) -> None:
     ids: set[str] = set()
     for zone in zones:
         here = (*refer, ("zoneId", zone.id[:100]))
@@ -73,10 +83,14 @@ def _check_zones(zones: Iterable[Zone], refer: tuple[Reference, ...]) -> None:
             text = f"zoneId {zone.id[:60]!r}; each zone needs an id of its own"
             _refuse(text, here, Predefined.VALIDATION_FAILURE)
         ids.add(zone.id)
-        if zone.type not in SUPPORTED:
-            names = ", ".join(SUPPORTED)
+        if zone.type not in types:
+            names = ", ".join(types)
             text = f"zone {zone.id[:60]!r}: zoneType is {zone.type}; {names} are supported"
             _refuse(text, (*here, ("field", "zoneType")), Predefined.UNSUPPORTED_PARAMETER)
+        if zone.type is ZoneType.SPEED_LIMIT and not LEAST_SPEED <= zone.number < math.inf:
+            text = f"zone {zone.id[:60]!r}: maximumSpeed is {zone.number:g}; {LEAST_SPEED:g} m/s"
+            more = (*here, ("field", "maximumSpeed"))
+            _refuse(f"{text} or more was expected", more, Predefined.UNSUPPORTED_PARAMETER)
         if zone.word == "EVACUATE":
             text = f"zone {zone.id[:60]!r}: releaseLossBehavior is EVACUATE; STOP or CONTINUE was"
             more = (*here, ("field", "releaseLossBehavior"))

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import math
 from dataclasses import dataclass, field, replace
 from unittest import mock
 
@@ -20,7 +21,7 @@ from warehouse_vda5050.topics import Kind
 from warehouse_vda5050.validation import actions as action_checks
 from warehouse_vda5050.validation import demands
 from warehouse_vda5050.validation.fields import Fields
-from warehouse_vda5050.vehicle import instant, reception
+from warehouse_vda5050.vehicle import instant, reception, wheels
 from warehouse_vda5050.vehicle.actions import ActionQueue
 from warehouse_vda5050.vehicle.complaints import Complaints
 from warehouse_vda5050.vehicle.hands import Hands
@@ -30,6 +31,7 @@ from warehouse_vda5050.vehicle.progress import OrderProgress
 from warehouse_vda5050.vehicle.state_report import StateReporter
 from warehouse_vda5050.vehicle.vehicle import Vehicle
 from warehouse_vda5050.vehicle.wheels import Wheels
+from warehouse_vda5050.vehicle.wheels import _speeds_of as speeds_of
 
 from warehouse_vda5050.mqtt.vehicle_link import VehicleLink  # isort: skip
 
@@ -1335,7 +1337,6 @@ patched(
 # --- fields
 
 for _name in (
-    "maxSpeed",
     "maxHeight",
     "minHeight",
     "orientation",
@@ -1348,6 +1349,37 @@ for _name in (
         f"{_name} is honoured or refused",
         (demands, "EDGE_CHECKS", {k: v for k, v in demands.EDGE_CHECKS.items() if k != _name}),
     )
+patched(
+    "speed_ignored",
+    "maxSpeed is honoured or refused",
+    (OrderProgress, "speeds", lambda self: [math.inf] * self.base_end),
+)
+
+
+def _first_speed_alone(self, former=OrderProgress.speeds):
+    return [*former(self)[:1], *[math.inf] * (self.base_end - 1)]
+
+
+def _speed_of_next(self, former=OrderProgress.speeds):
+    return [*former(self)[1:], math.inf]
+
+
+def _half_heard(leg, speeds):
+    return [2 * speed for speed in speeds_of(leg, speeds)]
+
+
+patched(
+    "speed_ahead_late",
+    "maxSpeed holds from the node where the edge begins",
+    (Wheels, "_lengthen", lambda *arguments: None),
+    (OrderProgress, "speeds", _first_speed_alone),
+)
+patched(
+    "speed_off_by_one",
+    "maxSpeed holds on its own edge",
+    (OrderProgress, "speeds", _speed_of_next),
+)
+patched("speed_doubled", "maxSpeed is in m/s", (wheels, "_speeds_of", _half_heard))
 patched("theta_ignored", "theta is honoured or refused", (demands, "_theta", lambda *args: ""))
 patched(
     "deviation_ignored",

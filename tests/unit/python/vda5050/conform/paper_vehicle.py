@@ -9,7 +9,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from grid_robot import GRID, GridRobot
+from grid_robot import GRID, LimitedRobot
 
 from warehouse_vda5050.codec import codec_for
 from warehouse_vda5050.conform.ground import straight
@@ -26,10 +26,10 @@ from warehouse_vda5050.vehicle import Vehicle, VehicleSettings
 WHO = Identity("paper", "1")
 TICK = 0.05  # [s]
 OFF = 0.003
-STRIDE = 0.075  # of an edge a tick: 1.5 m/s
+TOP = 1.5  # [m/s]
 
 
-class PaperRobot(GridRobot):
+class PaperRobot(LimitedRobot):
     """Drives a cell in 0.7 s, seen between cells too; turns at once, lifts in 2 s. In every other
     column it stands OFF [m] beside the middle of the cell."""
 
@@ -56,7 +56,7 @@ class PaperRobot(GridRobot):
             dx, dy = goal[0] - self.cell[0], goal[1] - self.cell[1]
             self.ahead = ((dx > 0) - (dx < 0), (dy > 0) - (dy < 0))
             self.yaw = math.atan2(self.ahead[1], self.ahead[0])
-        self.part += STRIDE
+        self.part += self.speed * TICK
         if self.part >= 1.0:
             self.part = 0.0
             self._drive()
@@ -64,7 +64,7 @@ class PaperRobot(GridRobot):
     def report(self):
         report = super().report()
         dx, dy = self.ahead
-        speed = 1.5 if report.moving else 0.0
+        speed = self.speed if report.moving else 0.0
         return replace(
             report,
             x=report.x + self.part * dx + OFF * (self.cell[0] % 2),
@@ -73,6 +73,11 @@ class PaperRobot(GridRobot):
             vx=speed * dx,
             vy=speed * dy,
         )
+
+    @property
+    def speed(self):
+        """That of the present edge, of 1 m [m/s]."""
+        return min(TOP, self.limits.get(self.reached, TOP))
 
     def init_position(self, x, y, yaw):
         return ""

@@ -126,7 +126,10 @@ def test_without_a_broker_it_is_not_tried(tmp_path):
     [
         (["--vehicle", "a/1"], "--out"),
         (["--vehicle", "a", "--out", "x"], "serial is ''"),
-        (["--vehicle", "a/1", "--out", "x", "--version", "1.1"], "2.0, 2.1 or 3.0 was expected"),
+        (
+            ["--vehicle", "a/1", "--out", "x", "--version", "1.1"],
+            "2.0.0, 2.1.0, 3.0.0 was expected",
+        ),
         (["--vehicle", "a/1", "--out", "x", "--only", "orders"], "no case or chapter orders"),
         (["--vehicle", "a/1", "--out", "x", "--edges", "0"], "above 0"),
     ],

@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """Vehicles of 3.0.0 that break one rule of zones each: our vehicle's code with one thing wrong."""
 
+import math
 from dataclasses import replace
 
 from mutants import Mutant
 
 from warehouse_vda5050.validation import MessageError
 from warehouse_vda5050.vehicle import zone_guard
+from warehouse_vda5050.vehicle.vehicle import Vehicle
 from warehouse_vda5050.vehicle.zone_guard import ZoneGuard
-from warehouse_vda5050.zones import store
 from warehouse_vda5050.zones.releases import Releases
 from warehouse_vda5050.zones.route import Stretch
-from warehouse_vda5050.zones.store import SUPPORTED, ZoneStore
+from warehouse_vda5050.zones.store import ZoneStore
 from warehouse_vda5050.zones.zone import Grant, ZoneType
 
 MUTANTS: dict[str, Mutant] = {}
@@ -98,6 +99,11 @@ def _goes_on(self, zone, former=Releases.is_granted):
     return former(self, zone) or zone in self.lost()
 
 
+def _zones_first(self, order):
+    edges, zones = order.speeds(), self.zones.speeds
+    return [edge if math.isinf(zone) else zone for edge, zone in zip(edges, zones)] or edges
+
+
 def _no_hints(zone, text, precise, former=zone_guard._error):
     return former(zone, text, None)
 
@@ -113,7 +119,7 @@ patched(
 patched(
     "any_type_taken",
     "types that are not supported are refused by their name",
-    (store, "SUPPORTED", (*SUPPORTED, *ZoneType)),
+    (zone_guard, "ZoneStore", lambda types: ZoneStore((*types, *ZoneType))),
 )
 patched(
     "unknown_enabled", "a set that was not sent is not enabled", (ZoneStore, "enable", _any_known)
@@ -146,3 +152,14 @@ patched(
     (Releases, "is_granted", _goes_on),
 )
 patched("names_no_type", "RELEASE_LOST is the error's type", (zone_guard, "_error", _no_hints))
+patched(
+    "zone_speed_ignored",
+    "a SPEED_LIMIT zone limits the speed",
+    (ZoneGuard, "_speed_on", lambda self, stretch: math.inf),
+)
+patched("zone_over_edge", "the lowest limit applies", (Vehicle, "_speeds", _zones_first))
+patched(
+    "edge_over_zone",
+    "a limit of an edge does not hide one of a zone",
+    (Vehicle, "_speeds", lambda self, order: order.speeds()),
+)

@@ -60,10 +60,10 @@ def test_the_intermediate_path_ends_where_the_robot_stops_next():
 
 
 def test_arrivals_are_estimated_by_a_trapezoid_and_quarter_turns():
-    way = waypoints([(0.0, 0.0), (3.0, 0.0), (3.0, 3.0)], 0.0, 0.0, KIVA, 100.0)
+    way = waypoints([(0.0, 0.0), (3.0, 0.0), (3.0, 3.0)], [math.inf] * 2, 0.0, 0.0, KIVA, 100.0)
     assert [round(point.eta, 3) for point in way] == [100.0, 103.5, 107.625]
     assert way[-1].theta == pytest.approx(math.pi / 2)
-    (_, end) = waypoints([(0.0, 0.0), (0.25, 0.0)], 0.0, 0.0, KIVA, 0.0)
+    (_, end) = waypoints([(0.0, 0.0), (0.25, 0.0)], [math.inf], 0.0, 0.0, KIVA, 0.0)
     assert end.eta == pytest.approx(1.0)
 
 

@@ -8,6 +8,7 @@
 
 #include "core/motion/driving/clearance.h"
 #include "core/motion/driving/drives.h"
+#include "core/motion/driving/speed_limits.h"
 #include "core/motion/driving/stretches.h"
 #include "core/motion/wheels/ground.h"
 #include "core/parallel/avx2_clone.h"
@@ -163,6 +164,10 @@ void planAttention(RobotView& world, int i, double after) {
     const double end = after + stepsTo(f, i, f.localisation[i].stretch.until, world.clock.dt);
     f.attend_at[i] = std::min(f.attend_at[i], end);
   }
+  if (f.tasks[i].path.isLimited()) {
+    const double until = holdsUntil(world, i, f.top_speed[i]) - 2 * f.top_speed[i] * world.clock.dt;
+    f.attend_at[i] = std::min(f.attend_at[i], after + stepsTo(f, i, until, world.clock.dt));
+  }
   if (std::isinf(f.count_at[i])) return;
   const double next = after + stepsTo(f, i, f.count_at[i], world.clock.dt);
   f.attend_at[i] = std::min(f.attend_at[i], next);
@@ -193,7 +198,7 @@ void attend(TaskView& world, Obstacles& obstacles, const Attention& due, double 
   bool ended = due.ended;
   if (f.reference[i] >= f.count_at[i]) count(world, i);
   if (f.localises && !ended) ended = !continueStretch(world, i) || hasEnded(f, i, world.clock.dt);
-  if (ended) return moved(f, i);
+  if (ended || !holdsSpeed(world, i, f.top_speed[i])) return moved(f, i);
   // A robot that has just read a code may change its way.
   const auto time = [&] { return f.localises ? clearTime(world, i, false) : due.clear_time; };
   if (f.clear_until[i] <= now && !noteClearance(world, obstacles, i, time())) return moved(f, i);

@@ -18,7 +18,9 @@ void ReleasedPath::extendRun() {
 
 void ReleasedPath::forgetBefore(std::uint32_t number) {
   if (number <= first) return;
-  points.erase(points.begin(), points.begin() + std::min(number, size()) - first);
+  const std::uint32_t left = std::min(number, size()) - first;
+  points.erase(points.begin(), points.begin() + left);
+  if (isLimited()) limits.erase(limits.begin(), limits.begin() + left);
   first = number;
 }
 

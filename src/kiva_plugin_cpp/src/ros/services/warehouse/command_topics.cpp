@@ -17,6 +17,7 @@ constexpr int kHeardQueue = 1000;
 
 template <typename Message>
 constexpr bool kIsPath = std::is_same<Message, warehouse_msgs::FollowPath>::value ||
+                         std::is_same<Message, warehouse_msgs::LimitedPath>::value ||
                          std::is_same<Message, warehouse_msgs::FleetFollow>::value;
 
 template <typename Message>

@@ -3,7 +3,6 @@
 
 import math
 from collections.abc import Callable
-from datetime import datetime
 
 from warehouse_vda5050.conform import view
 from warehouse_vda5050.conform.case import Chapter
@@ -50,16 +49,10 @@ def _ignored(_order: Json, _states: list[Json]) -> str:
 
 
 def _slow(order: Json, states: list[Json]) -> str:
-    speeds = [s["velocity"].get("vx", 0.0) for s in states if isinstance(s.get("velocity"), dict)]
-    most = max(map(abs, speeds), default=_mean_speed(order, states))
-    return "" if most <= SLOW * 1.1 else f"it drove at {most:.2f} m/s"
-
-
-def _mean_speed(order: Json, states: list[Json]) -> float:
-    a, b = (node["nodePosition"] for node in order["nodes"])
-    times = [datetime.fromisoformat(str(s["timestamp"])) for s in states]
-    duration = (times[-1] - times[0]).total_seconds()
-    return math.hypot(b["x"] - a["x"], b["y"] - a["y"]) / max(duration, 0.1)
+    """Judges the speed on the one edge of an order that has a limit."""
+    limited = [k for k, edge in enumerate(order["edges"]) if "maxSpeed" in edge]
+    fastest = view.fastest_on(states, order, limited[0])
+    return "" if fastest <= SLOW * 1.1 else f"it drove at {fastest:.2f} m/s"
 
 
 @case("max_speed", "6.1.1", edges=1)
@@ -68,6 +61,14 @@ def max_speed(probe: Probe) -> None:
     _honoured_or_refused(
         probe, _with_edge(probe, maxSpeed=SLOW), ("maxSpeed", "maximumSpeed"), _slow
     )
+
+
+@case("max_speed_ahead", "6.1.1", edges=3)
+def max_speed_ahead(probe: Probe) -> None:
+    """maxSpeed of an edge ahead is kept from the node on where it begins, or the order refused."""
+    order = probe.new_order(probe.way(3))
+    order["edges"][1]["maxSpeed"] = SLOW
+    _honoured_or_refused(probe, order, ("maxSpeed", "maximumSpeed"), _slow)
 
 
 @case("max_height", "6.1.1", edges=1)

@@ -21,6 +21,7 @@ case = chapter.case
 ONLY = ("3.0.0",)
 HALF = 0.15  # half a side of a zone around a place, as a share of the edge
 PAST = "2020-01-01T00:00:00.000Z"
+SLOW = 0.2  # [m/s]
 NONE_KNOW = ("COORDINATED_REPLANNING", "ACTION", "PENALTY", "PRIORITY", "SPEED_LIMIT")
 
 
@@ -225,6 +226,36 @@ def one_way(probe: Probe) -> None:
         _stays_out(probe, order, "it drives against the direction")
         if view.has(probe.state, order):
             _end(probe)
+
+
+@case("speed_limit", "6.4.1.1", edges=3, versions=ONLY)
+def speed_limit(probe: Probe) -> None:
+    """A vehicle is not faster in a SPEED_LIMIT zone, and has slowed down where it enters."""
+    _need(probe, "SPEED_LIMIT")
+    way = probe.way(3)
+    _demand_speed(probe, way, probe.new_order(way), {"maximumSpeed": SLOW}, SLOW)
+
+
+@case("lowest_limit", "6.4.4", edges=3, versions=ONLY)
+def lowest_limit(probe: Probe) -> None:
+    """The lowest of the competing maximumSpeed values of zones and edges applies."""
+    _need(probe, "SPEED_LIMIT")
+    way = probe.way(3)
+    order = probe.new_order(way)
+    order["edges"][1]["maxSpeed"] = SLOW
+    _demand_speed(probe, way, order, {"maximumSpeed": 2 * SLOW}, SLOW)
+
+
+def _demand_speed(probe: Probe, way: list[Place], order: Json, more: Json, limit: float) -> None:
+    """Demands that an order's second edge, all in a zone, is not driven faster than at a limit
+    [m/s]."""
+    zone = _zone(way[1], _edge(way), "SPEED_LIMIT", **more)
+    zone["vertices"] = _around(way[1], way[2])
+    mark = len(probe.log.entries)
+    with _held(probe, way[0].map_id, zone):
+        probe.drive(order)
+    fastest = view.fastest_on(probe.log.values(Kind.STATE, mark), order, 1)
+    demand(fastest <= 1.1 * limit, f"it drove at {fastest:.2f} m/s in the zone")
 
 
 def _release(way: list[Place], loss: str = "STOP") -> Json:
