@@ -52,18 +52,19 @@ class Journey:
             )
         points, speeds = self.points, self.speeds
         if command.points:
-            repeated = points[command.first : self.released]  # as a path that is cut off has them
-            if command.first > len(points) or [*command.points[: len(repeated)]] != repeated:
+            points = [*points[: command.first], *command.points]
+            speeds = speeds_after(self, command)
+            base = self.released  # which may be sent once more, as of a path that is cut off
+            is_other = points[:base] != self.points[:base] or speeds[:base] != self.speeds[:base]
+            if is_other or command.first > len(self.points):
                 raise RefusedError(
                     f"points from number {command.first} on can't be replaced:"
                     f" {self.released} of {len(self.points)} are released"
                 )
-            points = [*self.points[: command.first], *command.points]
-            speeds = speeds_after(self, command)
         if command.released > len(points):
             raise RefusedError(f"{command.released} of {len(points)} points can't be released")
-        wanted, known = (points, speeds, command.released), (self.points, self.speeds, self.released)
-        if wanted == known and not self.is_refused:
+        is_same = (points, speeds, command.released) == (self.points, self.speeds, self.released)
+        if is_same and not self.is_refused:
             return
         self.points, self.speeds = points, speeds
         self.released, self.is_changed = command.released, True
