@@ -76,7 +76,7 @@ class Master(VehicleCase):
         self.assertEqual((driven_by.direction, driven_by.kiva_id), (Vda5050.MASTER, (NUMBER,)))
         self.assertEqual((driven_by.manufacturer, driven_by.serial), (["acme"], ["7"]))
 
-    def test_1_commands_that_the_world_publishes_are_heard_from_it_alone(self):
+    def test_2_commands_that_the_world_publishes_are_heard_from_it_alone(self):
         """A client that waits for one connection has that to the world."""
         rotate = rospy.Publisher("/rot", Rotate, queue_size=1)
         wait_until(rotate.get_num_connections, "the world")

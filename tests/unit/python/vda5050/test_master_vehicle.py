@@ -260,6 +260,16 @@ def test_after_a_refused_update_a_path_may_end_where_the_vehicle_stands(bench):
     assert bench.events()[-1] == ("DONE", "done: follow path 9")
 
 
+def test_a_vehicle_that_was_put_elsewhere_is_asked_again_at_once(bench):
+    for wait in (0.0, 1.0, 2.0):
+        bench.vehicle.command(Follow(9, 0, WAY, 2))
+        refuse(bench, bench.order(wait))
+    bench.vehicle.command(Follow(9, 0, WAY, 2))
+    assert bench.sent(1.0) == []
+    bench.tell(position=AgvPosition(0.0, 0.1, 0.0))
+    assert bench.order()
+
+
 def test_an_order_whose_end_the_vehicle_refuses_is_cancelled(bench):
     bench.take(bench.follow(2), at=2)
     bench.tell(driving=True)
