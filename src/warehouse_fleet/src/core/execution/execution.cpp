@@ -49,7 +49,7 @@ void Execution::update(double time, std::vector<Report> reports) {
       continue;
     }
     if (course.isMember() && !reports_[robot].is_controlled) {
-      course.recovery = {};  // whoever takes it over again begins anew, its old path over or not
+      course.recovery = {};  // as a member it begins afresh, even if this path is not over
       if (isOver(robot)) dismiss(robot);
     }
     if (!course.isMember()) continue;
