@@ -81,7 +81,9 @@ class Troubles(BrokerCase):
         cls.other = cls.add_vehicle(FormulaRobot(*other, 0.0, TOP), "8")
         cls.ear = Ear(cls.broker.port)
         cls.start_master(ROBOTS)
-        cls.state.first(lambda state: state.automatic == 2, PATIENCE)
+        there = lambda: {NUMBER, OTHER} <= {*cls.fleet.messages[-1].kiva_id}  # noqa: E731
+        wait_until(there, "both vehicles")
+        wait_until(lambda: cls.state.messages[-1].automatic == 2, "they are AUTOMATIC")
 
     def run(self, result=None):
         """Each test begins where the one before has ended: the first failure is the last test."""
@@ -202,8 +204,7 @@ class Troubles(BrokerCase):
         x, y = self.grid.position(self.grid.cell_at(*WIDE))
         self.vehicle.do(self.stand, x, y, 0.0)
         set_modes(AUTOMATIC, NUMBER)
-        stored = lambda event: (event.kind, event.shelf_id) == (TransportEvent.STORED, UNIT)  # noqa: E731
-        self.transports.first(stored, PATIENCE)
+        self.until_no_alarm(f"kiva{NUMBER} {LOST}")
         self.assertEqual(self.contacts(), [])
 
     def stand(self, x, y, yaw):
