@@ -8,6 +8,7 @@ import unittest
 
 import rospy
 import rostest
+import yaml
 from rostest_support.node_test import call, latched, wait_until
 from rostest_support.warehouse_test import BOX, Collector, control, delete, spawn, world
 from std_msgs.msg import String
@@ -15,7 +16,7 @@ from std_msgs.msg import String
 from warehouse_layout.file.request import PRESETS, Request
 from warehouse_layout.generate.generated import plan
 from warehouse_layout.models import models
-from warehouse_msgs.msg import WarehouseObjects
+from warehouse_msgs.msg import Command, WarehouseObjects
 from warehouse_msgs.srv import Checkpoint, ReplaceModels, Step
 
 SECOND = 1000  # steps
@@ -80,6 +81,20 @@ class Replacing(unittest.TestCase):
         )
         self.assertEqual(world().model_names, names)
         self.assertEqual(self.digest(), by_hand)
+
+    def test_a_call_is_published_with_its_caller_and_the_sizes_of_its_documents(self):
+        names = [f"box{i}" for i in range(30)]
+        text = FULL.format(UNIT)
+        with Collector("/warehouse/service_calls", Command) as calls:
+            self.assertTrue(replace([text], models.PLACED, names).success)
+            (message,) = calls.wait_for(bool)
+        self.assertEqual(
+            (message.topic, message.sender), ("/gazebo/replace_models", rospy.get_name())
+        )
+        fields = yaml.safe_load(message.fields)
+        self.assertEqual(fields["kinds"], list(models.PLACED))
+        self.assertEqual(fields["names"], [*names[:20], "… and 10 more"])
+        self.assertEqual(fields["documents"], [f"SDF of {len(text)} bytes"])
 
     def build_by_hand(self, texts):
         for text in texts:

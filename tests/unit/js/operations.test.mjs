@@ -58,6 +58,7 @@ test('a figure is judged by its target', () => {
   assert.deepEqual(verdict({ value: 5, target: 0 }), ['', '']);
   assert.deepEqual(verdict({ value: 80, target: 100, early: true }), ['', 'the shift begins']);
   assert.deepEqual(verdict({ value: 100, target: 100, early: true })[0], 'good');
+  assert.deepEqual(verdict({ value: 40, target: 100, enough: true }), ['good', 'all that is ordered']);
   assert.deepEqual([0.02, 0.03, 0.05].map((value) => verdict({ value, target: 0.02 }, true)[0]), ['good', 'near', 'missed']);
 });
 

@@ -5,8 +5,10 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { fitsOrders, freeName, ordersText, partsOf } from '../../../src/warehouse_viewer/web/js/whatif/choices.js';
 import { demandOf, demandText, describeDesign, edgesOf } from '../../../src/warehouse_viewer/web/js/whatif/design_words.js';
-import { eventsOf, linesOf } from '../../../src/warehouse_viewer/web/js/whatif/events.js';
-import { changesOf, differenceOf, endOf, rangeOf } from '../../../src/warehouse_viewer/web/js/whatif/from_now.js';
+import { eventsOf, linesOf, refusalOf } from '../../../src/warehouse_viewer/web/js/whatif/events.js';
+import { changesOf, refusalOf as refusalNow } from '../../../src/warehouse_viewer/web/js/replay/changes.js';
+import { differenceOf, endOf, rangeOf } from '../../../src/warehouse_viewer/web/js/whatif/from_now.js';
+import { expectedOf } from '../../../src/warehouse_viewer/web/js/whatif/numbers.js';
 import { named } from '../../../src/warehouse_viewer/web/js/whatif/intro.js';
 import { hashOf, namesOf } from '../../../src/warehouse_viewer/web/js/whatif/picks.js';
 import { chartOf, topOf } from '../../../src/warehouse_viewer/web/js/whatif/whiskers.js';
@@ -40,6 +42,18 @@ test('events are lines of a field', () => {
   assert.deepEqual(linesOf(events), lines);
   assert.deepEqual(linesOf(undefined), []);
   assert.deepEqual(eventsOf('close'), [{ at: 'close', '': '' }]); // the server says what is wrong
+});
+
+test('a refusal names the event as a person counts', () => {
+  assert.equal(refusalOf("events[1].close: is 3; the name of a station was expected"), 'Event 2: close is 3; the name of a station was expected');
+  assert.equal(refusalOf("events[0].at: is 'x'; seconds"), "Event 1: its time is 'x'; seconds");
+  assert.equal(refusalOf('small: 900 robots'), 'small: 900 robots');
+});
+
+test('numbers are expected in words', () => {
+  assert.equal(expectedOf({ min: '1', max: '20000', step: '' }), 'a whole number from 1 to 20,000 is expected');
+  assert.equal(expectedOf({ min: '0.01', max: '100', step: 'any' }), 'a number from 0.01 to 100 is expected');
+  assert.equal(expectedOf({ min: '1', max: '', step: 'any' }), 'a number from 1 on is expected');
 });
 
 test('files are offered for the orders that they hold', () => {
@@ -98,5 +112,8 @@ test('what comes of the shift that runs is a column', () => {
   assert.equal(endOf({ p10: 3000, p50: 3240, p90: null }), '0:54:00 (0:50:00–later)');
   assert.equal(endOf({ p10: null, p50: null, p90: null }), 'not within');
   assert.equal(differenceOf('all done; against as it is: -61.4 ± 10.6 orders done'), '-61.4 ± 10.6 orders done');
+  assert.equal(differenceOf('done; against as it is: -1,061.4 ± 10.6 orders done, +0.0 late in each of 7 runs'), '-1,061.4 ± 10.6 orders done\n+0.0 late in each of 7 runs');
   assert.equal(differenceOf('all done'), '');
+  assert.equal(refusalNow("'+0 robots 0': robots is '0'", 'robots 0'), "'robots 0': robots is '0'");
+  assert.equal(refusalNow("'+0 robots 0': robots is '0'", '+0 robots 0'), "'+0 robots 0': robots is '0'");
 });

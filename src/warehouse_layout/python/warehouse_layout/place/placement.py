@@ -175,7 +175,7 @@ class _Placement:
         chosen = rng.permutation(units if len(units) else places)[: robots - parked]
         if parked + len(chosen) < robots:
             raise self._fail(
-                f"{robots} robots, but there is room for {parked + len(chosen)}: {parked} on"
+                f"{robots:,} robots, but there is room for {parked + len(chosen):,}: {parked:,} on"
                 f" parking 'p' and 'c', {len(chosen)} beneath storage units"
             )
         return chosen

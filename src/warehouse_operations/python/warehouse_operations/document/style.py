@@ -87,6 +87,7 @@ details table {{ color: var(--text); }}
   .first {{ break-after: page; }} .export, details {{ display: none; }}
   .scroll {{ overflow: visible; }} section.short {{ break-inside: avoid; }}
   .answer {{ font-size: 15pt; }}
+  .halves {{ columns: 2; column-gap: 28px; }} .halves table {{ width: 100%; }}
   * {{ print-color-adjust: exact; -webkit-print-color-adjust: exact; }}
 }}
 """

@@ -26,12 +26,18 @@ class Difference:
     half: float
     pairs: int
 
+    def said_of(self, what: str) -> str:
+        """Returns the difference in something that is counted."""
+        if self.half == 0:
+            return f"{self.mean:+,.1f} {what} in each of {self.pairs} runs"
+        return f"{self} {what}"
+
     def __str__(self) -> str:
         if np.isnan(self.half):
-            return f"{self.mean:+.1f}"
+            return f"{self.mean:+,.1f}"
         if self.half == 0:
-            return f"{self.mean:+.1f} in all {self.pairs}"
-        return f"{self.mean:+.1f} ± {self.half:.1f}"
+            return f"{self.mean:+,.1f} in all {self.pairs}"
+        return f"{self.mean:+,.1f} ± {self.half:,.1f}"
 
 
 def differences(without: Sequence[Outcome], with_: Sequence[Outcome]) -> list[Difference]:
@@ -51,4 +57,4 @@ def differences(without: Sequence[Outcome], with_: Sequence[Outcome]) -> list[Di
 def sentence(without: Sequence[Outcome], with_: Sequence[Outcome]) -> str:
     """Returns the differences in a few words."""
     words = {"done": "orders done", "open": "open", "late": "late", "pieces": "pieces"}
-    return ", ".join(f"{each} {words[each.name]}" for each in differences(without, with_))
+    return ", ".join(each.said_of(words[each.name]) for each in differences(without, with_))

@@ -66,6 +66,12 @@ class Difference:
         return replace(self, p_value=p_value, estimate=replace(self.estimate, half=half))
 
     @property
+    def is_alike(self) -> bool:
+        """Whether all pairs differ by the same amount: t has no deviation to judge it by, as where
+        stations are busy all the time, and the number of pairs says how sure it is."""
+        return bool(np.isinf(self.effect))
+
+    @property
     def significant(self) -> bool:
         """Whether the difference is significant at the level of CONFIDENCE."""
         return self.p_value < 1 - CONFIDENCE
@@ -101,6 +107,10 @@ def grouped(runs: Iterable[Run]) -> list[Group]:
         by_config.setdefault(json.dumps(run.config, sort_keys=True), []).append(run)
     flat = [_flat(members[0].config) for members in by_config.values()]
     keys = [key for key in _all_keys(flat) if len({str(config.get(key)) for config in flat}) > 1]
+    if "layout" in keys and len({(c.get("site"), c.get("layout")) for c in flat}) == len(
+        {c.get("site") for c in flat}
+    ):
+        keys.remove("layout")  # a digest, which says no more than the name of the site
     result = []
     for config, members in zip(flat, by_config.values()):
         label = ", ".join(_word(key, config.get(key)) for key in keys)
@@ -117,7 +127,7 @@ def difference_of(a: dict[int, float], b: dict[int, float]) -> Difference | None
     """Returns the Difference of figures by seed; None if there are too few."""
     common = sorted(a.keys() & b.keys())
     if len(common) >= LEAST:
-        result = _of_pairs(np.array([b[seed] - a[seed] for seed in common]))
+        result = _of_pairs(*(np.array([side[seed] for seed in common]) for side in (a, b)))
     elif not common and min(len(a), len(b)) >= LEAST:
         result = _of_samples(np.array([*a.values()]), np.array([*b.values()]))
     else:
@@ -140,12 +150,14 @@ def holm(p_values: Sequence[float]) -> list[float]:
 _Found = tuple[Estimate, float, float, float]  # with p-value, effect and degrees of freedom
 
 
-def _of_pairs(deltas: np.ndarray) -> _Found:
-    """Returns the mean of differences, its p-value and effect.
+def _of_pairs(a: np.ndarray, b: np.ndarray) -> _Found:
+    """Returns the mean of the differences of pairs, its p-value and effect.
 
     Equal differences have no deviation for t: their signs are tested, which are all equal with a
     probability of 2 / 2^n.
     """
+    deltas = b - a
+    deltas[np.isclose(a, b, rtol=1e-12, atol=0.0)] = 0.0  # they differ by rounding
     estimate, count = Estimate.of(deltas), len(deltas)
     if not deltas.any():
         return estimate, 1.0, 0.0, count - 1

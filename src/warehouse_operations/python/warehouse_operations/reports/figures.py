@@ -40,7 +40,7 @@ OF_TRAFFIC = {"collisions", "blocked", "watchdog", "plan_ms.p99", "executed_over
 def table(groups: Sequence[Group]) -> str:
     """Returns the figures of all groups, HTML: tables that are narrow enough for paper."""
     if len(groups) == 1:
-        return _part(groups, [])
+        return f'<div class="halves">{_part(groups, [])}</div>'
     letters = [letter(i) for i in range(len(groups))]
     return "".join(
         _part(groups[i : i + ACROSS], letters[i : i + ACROSS])

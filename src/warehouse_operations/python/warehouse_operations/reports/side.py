@@ -104,6 +104,10 @@ def _sure(verdicts: Sequence[Verdict], group: Group) -> str:
     ]
     if not of_pieces:
         return too_few(group)
+    if of_pieces[0].difference.is_alike:
+        return (
+            f"after the warm-up by as much in each of {of_pieces[0].difference.estimate.count} runs"
+        )
     if of_pieces[0].difference.significant:
         return f"chance hardly explains it ({p_text(of_pieces[0].p_value)})"
     return f"chance may explain it ({p_text(of_pieces[0].p_value)})"
@@ -148,7 +152,7 @@ def _rows(groups: Sequence[Group], verdicts: Sequence[Verdict]) -> Iterator[list
             f"{relative:+.1f} %",
             "all alike" if np.isnan(low) else f"{100 * low:+.1f} to {100 * high:+.1f} %",
             p_text(verdict.p_value).removeprefix("p = ").removeprefix("p "),
-            f"{verdict.difference.effect:+.1f}",
+            "" if verdict.difference.is_alike else f"{verdict.difference.effect:+.1f}",
         ]
 
 

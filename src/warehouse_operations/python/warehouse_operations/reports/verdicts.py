@@ -46,14 +46,21 @@ class Verdict:
     def __str__(self) -> str:
         difference, (low, high) = self.difference, self.bounds
         bounds = "all alike" if isnan(low) else f"95 %: {100 * low:+.1f} to {100 * high:+.1f} %"
-        sure = "significant" if difference.significant else "not significant"
+        sure = f"{_sure(difference)}, {p_text(self.p_value)}, {bounds}"
+        effect = "" if difference.is_alike else f", effect {difference.effect:+.1f}"
         pairs = ", seed by seed" if difference.paired else ""
         return (
             f"{self.group.label}: {100 * difference.relative:+.1f} % {self.words} against"
-            f" {self.first.label} ({sure}, {p_text(self.p_value)}, {bounds},"
-            f" effect {difference.effect:+.1f},"
+            f" {self.first.label} ({sure}{effect},"
             f" {difference.estimate.count} runs{pairs})"
         )
+
+
+def _sure(difference: Difference) -> str:
+    """Returns how sure a difference is."""
+    if difference.is_alike:
+        return "the same in each run"
+    return "significant" if difference.significant else "not significant"
 
 
 def verdicts(groups: Sequence[Group]) -> list[Verdict]:

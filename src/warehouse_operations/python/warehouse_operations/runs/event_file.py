@@ -116,13 +116,15 @@ def of_line(text: str, now: float = 0.0) -> Event:
     EventError."""
     words = text.split()
     if len(words) < 3:
-        raise EventError(f"'{text}'; a time, {EXPECTED}, and a value were expected")
+        raise EventError(
+            f"'{text}'; a time, {EXPECTED}, and a value were expected, as in 10m close pick1"
+        )
     when, kind, *rest = words
     entry: dict[str, Any] = {kind: _value_of(kind, rest)}
     try:
         at = seconds_of(when.removeprefix("+"))
     except ValueError as error:
-        raise EventError(f"'{text}': {error}") from error
+        raise EventError(f"'{text}': the time {error}") from error
     entry["at"] = at + (now if when.startswith("+") else 0.0)
     if kind == "fail" and len(rest) > 2 and rest[-2] == "for":
         entry |= {"fail": " ".join(rest[:-2]), "for": rest[-1]}
@@ -227,7 +229,7 @@ class _Reader:
         number = plain(value) if isinstance(value, str) else value
         whole = isinstance(number, int) and not isinstance(number, bool)
         if not whole or not number or abs(number) > MOST_ROBOTS:
-            text = f"is {shown(value)}; +4 or -2, for example, up to {MOST_ROBOTS}, was expected"
+            text = f"is {shown(value)}; +4 or -2, for example, up to {MOST_ROBOTS:,}, was expected"
             raise self._fault("robots", text)
         return int(number)
 

@@ -4,6 +4,7 @@
 import itertools
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
+from datetime import timedelta
 
 from warehouse_layout.message_enums import OrderEventKind, OrderState
 from warehouse_operations.shift.context import Context
@@ -117,7 +118,7 @@ class OrderBook:
         else:
             order.priority, order.due = priority, due
         self._context.journal.order(order)
-        moment = f"due at {due:.0f} s" if due else "due at any time"
+        moment = f"due at {timedelta(seconds=round(due))}" if due else "due at any time"
         text = f"priority {priority}, {moment}"
         self.publish_event(order, OrderEventKind.CHANGED, text=text)
         self._on_backlog_change()

@@ -49,6 +49,7 @@ from warehouse_operations.stock.whereabouts import Whereabouts
 
 __all__ = ["Settings", "Shift"]
 
+FEW = 3  # orders that say how long others take, at least
 RECENT = 200  # latest orders, whose median time is the usual one
 
 
@@ -286,13 +287,14 @@ class Shift:
         units = [
             visit.unit for visit in visits if any(pick.line.order is order for pick in visit.picks)
         ]
-        turnovers = self.tally.turnover_s[-RECENT:]
-        if not turnovers:
-            return 0.0, units
-        usual = order.created + sorted(turnovers)[len(turnovers) // 2]
-        # An order that has waited longer than usual needs at least the time of its pieces.
+        # Of those that took longer than it has waited: others say nothing about it.
+        age = self.now - order.created
+        longer = sorted(t for t in self.tally.turnover_s[-RECENT:] if t > age)
+        usual = order.created + longer[len(longer) // 2] if len(longer) >= FEW else 0.0
         pace = place.seconds_a_piece if place else 0.0
         work = sum(visit.pieces_to_pick for visit in visits) * pace
+        if not usual and not work:
+            return 0.0, units
         return max(usual, self.now + work), units
 
     # Stations.

@@ -9,6 +9,7 @@ from typing import NamedTuple
 from warehouse_viewer.watch.alarm_book import OF_ROBOT, Trouble
 from warehouse_viewer.watch.alarm_kinds import KINDS
 from warehouse_viewer.watch.reasons import Reasons
+from warehouse_viewer.watch.troubles import QUEUED, patience
 
 SHOWN = 6  # robots that a consequence names
 MINUTE = 60.0  # [s]
@@ -27,7 +28,7 @@ def by_cause(pending: Iterable[Trouble], reasons: Reasons, now: float) -> list[T
     consequences."""
     causes, rest = _robots_at_fault(pending)
     waiting, stuck = reasons.waiting(), reasons.stuck()
-    rest = _waits_by_root(rest, causes, reasons)
+    rest = _waits_by_root(rest, causes, reasons, now)
     for name, cause in causes.items():
         robot = int(name.removeprefix("kiva"))
         causes[name] = _with_queue(cause, waiting.get(robot, []), stuck.get(robot, []), now)
@@ -66,9 +67,11 @@ def _earlier(first: float | None, other: float | None) -> float | None:
 
 
 def _waits_by_root(
-    rest: list[Trouble], causes: dict[str, Trouble], reasons: Reasons
+    rest: list[Trouble], causes: dict[str, Trouble], reasons: Reasons, now: float
 ) -> list[Trouble]:
-    """Leaves out robots that wait for one at fault. Those that wait for a robot that a person
+    """Leaves out robots that wait for one at fault, or for one that was at fault until a moment
+    ago: what has waited for it moves soon. Behind one that works a queue moves on, and is given the
+    time of one. Those that wait for a robot that a person
     holds, or that itself waits, are one Trouble of that robot, which is added to `causes`."""
     out = []
     for trouble in rest:
@@ -77,11 +80,14 @@ def _waits_by_root(
             continue
         root = reasons.root(int(trouble.subject.removeprefix("kiva")))
         name, known = f"kiva{root}", causes.get(f"kiva{root}")
+        since = max(trouble.since or 0.0, reasons.mended(root))
+        if now - since < (QUEUED if reasons.works(root) else patience(trouble.text)):
+            continue
         if known is None:
             text = f"{name} {reasons.robot(root).text}"
-            causes[name] = Trouble("ROBOT_WAITS", name, text, trouble.since)
+            causes[name] = Trouble("ROBOT_WAITS", name, text, since)
         elif known.kind == "ROBOT_WAITS":
-            causes[name] = known._replace(since=_earlier(known.since, trouble.since))
+            causes[name] = known._replace(since=_earlier(known.since, since))
     return out
 
 

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The four figures by which a shift is led, with their last hour and their targets.
 
-Pieces per hour: nine tenths of what the open stations can do at most. Orders per hour: as many as
+Pieces per hour: nine tenths of what the open stations can do at most, unless all that is ordered is
+done: no order waits for a station, and as many are done as come in. Orders per hour: as many as
 come in. Late orders: one in fifty at most. Robots available, that is, neither in need of help nor
 commanded by a person nor out of service: nineteen in twenty. Pieces and orders are those of the
 last quarter of an hour; a shift that is younger is early: until its first units have come it can't
@@ -57,13 +58,18 @@ class Figures:
         bound = kpis.item_upper_bound_per_hour
         early = throughput.end - throughput.begin < RECENT * throughput.interval
         times = [sample.time for sample in self._samples]
+        orders = _rates(throughput, throughput.orders_completed)
+        incoming = self._incoming()
+        is_enough = not kpis.orders_waiting and orders[0] >= PIECES_OF_BOUND * incoming
         return {
             "pieces": _figure(
-                *_rates(throughput, throughput.items_picked), PIECES_OF_BOUND * bound, bound, early
+                *_rates(throughput, throughput.items_picked),
+                PIECES_OF_BOUND * bound,
+                bound,
+                early,
+                bool(is_enough),
             ),
-            "orders": _figure(
-                *_rates(throughput, throughput.orders_completed), self._incoming(), early=early
-            ),
+            "orders": _figure(*orders, incoming, early=early),
             "late": _figure(
                 kpis.late_orders_fraction, times, [s.late for s in self._samples], MOST_LATE
             ),
@@ -86,9 +92,11 @@ def _figure(
     target: float,
     of: float = 0.0,
     early: bool = False,
+    enough: bool = False,
 ) -> dict[str, Any]:
     return {
         "early": early,
+        "enough": enough,
         "value": round(value, 4),
         "target": round(target, 4),
         "of": round(of, 1),

@@ -82,6 +82,7 @@ class Reasons:
         self._waits: dict[int, tuple[int, float, str]] = {}  # robot ahead, since, why
         self._doing: dict[int, str] = {}
         self._faults: dict[int, str] = {}
+        self._mended: dict[int, float] = {}  # when faults ended
         self._loads: dict[int, int] = {}  # unit by robot
         self._carriers: dict[int, int] = {}
         self._errands: dict[int, tuple[int, str, int]] = {}  # unit, station, order by robot
@@ -104,11 +105,13 @@ class Reasons:
         had no unit; `assigned`: the unit and the station of each robot with a transport;
         `held`: why units wait for a closed zone."""
         if now < self._now:
-            self._past = {}
+            self._past, self._mended = {}, {}
         self._now, self._starved, self._held = now, starved, held
         self._stations = {station.name: station for station in stations}
+        faulty = self._faults.keys()
         self._take_fleet(fleet)
         self._take_coordinator(coordinator)
+        self._mended |= dict.fromkeys(faulty - self._faults.keys(), now)
         self._take_errands(assigned)
         self._remember()
 
@@ -170,6 +173,14 @@ class Reasons:
     def fault(self, robot: int) -> str:
         """Returns why a robot can't drive autonomously, as "broken (drive)"; else empty."""
         return self._faults.get(robot, "")
+
+    def works(self, robot: int) -> bool:
+        """Returns whether a robot drives autonomously and waits for nothing."""
+        return robot not in self._waits and not self.fault(robot)
+
+    def mended(self, robot: int) -> float:
+        """Returns since when a robot drives autonomously again [s]; 0 where it always has."""
+        return self._mended.get(robot, 0.0)
 
     def waiting(self) -> dict[int, list[int]]:
         """Returns the robots that wait for each root, the longest wait first."""

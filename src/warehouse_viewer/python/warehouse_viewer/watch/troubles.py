@@ -47,8 +47,14 @@ def of_coordinator(state: CoordinatorState) -> Iterator[Trouble]:
     now = state.header.stamp.to_sec()
     waits = zip(state.waiting_kiva, state.waiting_since, state.waiting_text)
     for robot, since, why in waits:
-        if now - since >= (QUEUED if why.startswith("in the queue of ") else HELD_UP):
-            yield Trouble("ROBOT_WAITS", f"kiva{robot}", f"kiva{robot} waits {why}", since)
+        text = f"kiva{robot} waits {why}"
+        if now - since >= patience(text):
+            yield Trouble("ROBOT_WAITS", f"kiva{robot}", text, since)
+
+
+def patience(text: str) -> float:
+    """Returns how long a robot may wait as a sentence says [s]."""
+    return QUEUED if " waits in the queue of " in text else HELD_UP
 
 
 def _parted(text: str) -> tuple[str, str]:

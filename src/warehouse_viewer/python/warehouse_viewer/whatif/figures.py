@@ -3,8 +3,9 @@
 
 Figures by the minute begin after the warm-up (MSER-5), at the same minute for all scenarios that
 are compared. Runs of the same seed are compared in pairs, since they draw the same random numbers.
-A difference is reported where it is above chance; tests and intervals that are reported together
-are corrected together (Holm). Fewer than three runs have no interval, and no difference is shown.
+A difference is reported where it is above chance, or the same in all pairs; tests and intervals
+that are reported together are corrected together (Holm). Fewer than three runs have no interval,
+and no difference is shown.
 """
 
 import math
@@ -187,12 +188,14 @@ def _difference(
 
 def _as_json(difference: Difference, figure: Figure) -> dict[str, Any]:
     estimate = difference.estimate
+    is_shown = difference.significant or difference.is_alike
     return {
         "difference": {"mean": estimate.mean, "half": _finite(estimate.half)},
         "relative": _finite(difference.relative),
         "p": difference.p_value,
         "paired": difference.paired,
-        "verdict": _verdict(estimate.mean, difference.significant, figure.better),
+        "verdict": _verdict(estimate.mean, is_shown, figure.better),
+        "alike": estimate.count if difference.is_alike else 0,
     }
 
 

@@ -255,7 +255,7 @@ def _check_floor(description: Description) -> None:
         raise ScenarioError(f"{file.title}: there is no picking station")
     if description.stations > count:
         raise ScenarioError(
-            f"stations is {description.stations}; {file.title} has {count} for picking"
+            f"{description.stations:,} picking stations open; {file.title} has {count}"
         )
 
 

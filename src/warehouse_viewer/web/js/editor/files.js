@@ -114,6 +114,7 @@ export function showLost(notes) {
 
 /** Builds the drawing in place of the warehouse that runs. */
 export async function build(editor, post) {
+  if (isRefused(editor)) return;
   const name = editor.drawing.name || tr`this layout`;
   const isSure = await confirmed(tr`Build ${name}?`, tr`It replaces the running warehouse. The robots and the stock there are lost.`, tr`Build`);
   if (!isSure) return;
@@ -128,6 +129,7 @@ export async function build(editor, post) {
 
 /** Starts a warehouse of the drawing in the hub, with a shift, and goes to where it is listed. */
 export async function start(editor) {
+  if (isRefused(editor)) return;
   try {
     const wished = editor.drawing.name.toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '').slice(0, 30);
     const taken = (await request('GET', '/api/v1/simulations')).simulations.map(({ name }) => name);
@@ -146,8 +148,16 @@ function free(base, taken) {
   }
 }
 
+/** Whether there is nothing to build or to compare yet, or what has faults; says so. */
+function isRefused({ bounds, faults, say }) {
+  if (!bounds) say(tr`nothing is drawn yet: draw a warehouse, or begin with New`, 'refused');
+  else if (faults.length) say(tr`mend its faults first: ${faults[0].text}`, 'refused');
+  return !bounds || faults.length > 0;
+}
+
 /** Hands the drawing to the page /whatif as a layout to be compared, and goes there. */
 export async function compare(editor) {
+  if (isRefused(editor)) return;
   try {
     const name = fileNameOf(editor.drawing);
     const { name: kept } = await request('POST', '/whatif/layouts', { name, text: textOf(editor.drawing).text });

@@ -31,14 +31,19 @@ const SMALL = [
 const EXACT = 0.02; // of the target: as good as met
 const NEAR = 0.1; // the same: missed by little
 
-/** 'good', 'near' or 'missed', and the word for it; '' where there is no target, or it is too early to miss it. */
-export function verdict({ value, target, early = false }, most = false) {
+/** 'good', 'near' or 'missed', and the word for it; '' where there is no target, or it is too early to
+ *  miss it. `enough`: all is done that there is to do. */
+export function verdict({ value, target, early = false, enough = false }, most = false) {
   if (!target) return ['', ''];
   const miss = most ? value - target : (target - value) / target;
   if (miss <= (most ? 0 : EXACT)) return ['good', tr`on target`];
   if (early) return ['', tr`the shift begins`];
-  return miss <= (most ? target : NEAR) ? ['near', most ? tr`just above target` : tr`just below target`] : ['missed', most ? tr`above target` : tr`below target`];
+  if (enough) return ['good', tr`all that is ordered`];
+  return most ? above(miss, target) : below(miss);
 }
+
+const above = (miss, target) => (miss <= target ? ['near', tr`just above target`] : ['missed', tr`above target`]);
+const below = (miss) => (miss <= NEAR ? ['near', tr`just below target`] : ['missed', tr`below target`]);
 
 const COLOURS = { good: 'working', near: 'waiting', missed: 'needs-help', '': 'moving' };
 

@@ -72,7 +72,7 @@ export class OrderDetails {
       if (id !== this.order.order_id) return;
       const links = units.flatMap((name) => [make('a', { href: `${ROOT}/#${name}`, textContent: name.replace('storage_', '').replace(/(\d)/, ' $1') }), ' ']);
       this.showFacts([[tr`units`, ...links.length ? links : [tr`none on its way`]],
-        ...estimated ? [[tr`likely complete`, tr`${clock(estimated)}, in ${lasting(estimated - this.now())}`]] : []]);
+        ...isOver(this.order) ? [] : [[tr`likely complete`, estimated ? tr`${clock(estimated)}, in ${lasting(estimated - this.now())}` : tr`not known: few orders that are done took this long`]]]);
       $('order-events').replaceChildren(...events.reverse().map((event) => make('li', {},
         make('span', { className: 'dim', textContent: clock(event.time) }), ` ${said(event)}`)));
     } catch (error) {

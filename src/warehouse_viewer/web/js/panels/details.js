@@ -14,7 +14,7 @@ const LATE = ['pending', 'accepted']; // outcomes of a command that has not ende
 const MODE = {
   [RobotMode.AUTOMATIC]: tr`the coordinator commands it`,
   [RobotMode.MANUAL]: tr`you command it; other robots drive around it`,
-  [RobotMode.OUT_OF_SERVICE]: tr`it takes no commands; other robots drive around it`,
+  [RobotMode.OUT_OF_SERVICE]: tr`the coordinator leaves it alone; other robots drive around it`,
 };
 const WAITS = tr`sent; the simulation is paused: the robot starts when it resumes, even after a reset`;
 
@@ -246,14 +246,15 @@ export class Details {
     const answer = (text, kind) => {
       if (kind === 'refused' || kind === 'blocked') this.say(`${robot}: ${text}`, kind, at);
       if (![this.name, this.robot].includes(robot)) return;
-      Object.assign($('answer'), { hidden: false, textContent: `${name}: ${text}` });
+      Object.assign($('answer'), { hidden: false, textContent: text });
       $('answer').dataset.kind = kind;
     };
     answer(this.isPaused() ? WAITS : tr`sent`, 'sent');
     try {
       const { outcome, events } = await command(numberOf(robot), name, fields);
       const text = LATE.includes(outcome) ? tr`not yet done` : outcome;
-      answer([text, events.at(-1)?.text].filter(Boolean).join(': '), outcome);
+      const said = events.at(-1)?.text ?? '';
+      answer(!said || said.startsWith(text) ? said || text : `${text}: ${said}`, outcome);
     } catch (error) {
       answer(error.refused ? tr`refused: ${error.message}` : error.message, 'refused');
     }

@@ -14,7 +14,7 @@ const CONNECTION = { ONLINE: tr`online`, OFFLINE: tr`offline`, CONNECTIONBROKEN:
 
 const field = (id, label, more) => `<label data-field="${id}">${label} <input id="vehicle-${id}" ${more}></label>`;
 
-const FORM = `<header><h2 id="vehicle-title">${tr`Vehicles at the broker`}</h2><button type="button" id="vehicle-close" class="plain" title="${tr`Close this panel (Esc)`}"><svg><use href="/web/icons.svg#close"/></svg></button></header>
+const FORM = `<header><h2 id="vehicle-title">${tr`Vehicles at the broker`}</h2><button type="button" id="vehicle-close" class="plain" title="${tr`Close this panel (Esc)`}"><svg aria-hidden="true"><use href="/web/icons.svg#close"/></svg></button></header>
 <ul id="vehicle-list" class="zone-list"></ul>
 <form id="vehicle-form" novalidate hidden>
   <h3 id="vehicle-name"></h3>

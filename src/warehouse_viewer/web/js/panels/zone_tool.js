@@ -16,7 +16,7 @@ const corner = (i, legend, x, y) => `<fieldset><legend>${legend}</legend>
   <label>x <input id="zone-x${i}" type="number" step="any" required aria-label="${x}"></label>
   <label>y <input id="zone-y${i}" type="number" step="any" required aria-label="${y}"></label></fieldset>`;
 
-const FORM = `<header><h2 id="zone-title">${tr`Close a zone`}</h2><button type="button" id="zone-close" class="plain" title="${tr`Close this panel (Esc)`}"><svg><use href="/web/icons.svg#close"/></svg></button></header>
+const FORM = `<header><h2 id="zone-title">${tr`Close a zone`}</h2><button type="button" id="zone-close" class="plain" title="${tr`Close this panel (Esc)`}"><svg aria-hidden="true"><use href="/web/icons.svg#close"/></svg></button></header>
 <form id="zone-form" novalidate>
   <p class="dim hint">${tr`Drag over the floor, or type two corners. The fleet's robots keep out, and those inside leave.`}</p>
   <div class="zone-corners">${corner(1, tr`One corner`, tr`x of one corner [m]`, tr`y of one corner [m]`)}

@@ -4,6 +4,7 @@
 import { $, make, on } from '../base/dom.js';
 import { ask } from '../base/request.js';
 import { clock } from '../base/time.js';
+import { changesOf, refusalOf } from './changes.js';
 import { number } from '../language/numbers.js';
 import { tr } from '../language/texts.js';
 
@@ -43,10 +44,10 @@ export class ForecastFromHere {
 
   /** A later wish counts. */
   async make() {
-    const turn = ++this.asked, change = $('ahead-change').value.trim();
+    const turn = ++this.asked, change = $('ahead-change').value;
     this.say(tr`looks ahead for about 20 s …`);
     try {
-      const wish = { at: this.at, minutes: Number($('ahead-minutes').value), changes: change ? [change] : [] };
+      const wish = { at: this.at, minutes: Number($('ahead-minutes').value), changes: changesOf(change) };
       let forecast = await ask('POST', '/api/v1/forecasts', wish);
       while (forecast.state === 'RUNNING' && turn === this.asked) {
         await new Promise((resolve) => { setTimeout(resolve, LOOK); });
@@ -54,7 +55,7 @@ export class ForecastFromHere {
       }
       if (turn === this.asked) this.show(forecast);
     } catch (error) {
-      if (turn === this.asked) this.say(error.message);
+      if (turn === this.asked) this.say(refusalOf(error.message, change));
     }
   }
 

@@ -201,7 +201,8 @@ export class Timeline {
     $('replay-play').title = player.isPlaying ? tr`Pause the playback` : isLive ? tr`Play the last half minute` : tr`Play`;
     $('replay-play').setAttribute('aria-label', $('replay-play').title);
     press($('replay-live'), isLive);
-    const text = this.textOf(time);
+    const { live, end } = this.recording;
+    const text = live ? this.textOf(time) : tr`${this.textOf(time)} of ${clock(end)}`;
     if ($('replay-time').textContent !== text) $('replay-time').textContent = text;
     if (!isLive) this.drawFigures();
   }

@@ -77,7 +77,7 @@ export class Comparison {
     const counts = [...new Set(rows[0].cells.map(({ count }) => count))];
     const few = Math.min(...counts) < 3 ? tr` Fewer than three runs have no interval and say nothing about chance: give each scenario three repetitions or more.` : '';
     const after = rows.filter(({ note }) => note !== 'the whole shift').map(({ title: text }) => text.toLowerCase()).join('; ');
-    $('notes').textContent = tr`Means of ${counts.map(runsOf).join(tr` and `)} with 95 % confidence intervals. Better and worse than ${this.figures.names[0]}: the difference seed by seed is above chance`
+    $('notes').textContent = tr`Means of ${counts.map(runsOf).join(tr` and `)} with 95 % confidence intervals. Better and worse than ${this.figures.names[0]}: the difference seed by seed is above chance, or the same in each run`
       + tr` (p < 0.05, corrected for all differences in the table; its interval is, too).${few}`
       + tr` After a warm-up of ${number(warmUp)} min, the same for all: ${after}. The others: of the whole shift.`;
   }
@@ -94,8 +94,9 @@ function cellOf({ digits, plain }, cell, i) {
   const out = make('td', {}, make('span', { className: 'mean', textContent: interval(cell, digits) }), ' ');
   if (!i || plain) return out;
   const verdict = cell.verdict ?? 'too few runs';
+  const all = cell.alike ? tr` in each of ${cell.alike} runs` : '';
   const sign = SIGNS[verdict] ? `${SIGNS[verdict]} ` : '';
   const relative = SIGNS[verdict] && cell.relative !== null ? ` ${cell.relative > 0 ? '+' : ''}${number(100 * cell.relative, 1)} %` : '';
-  out.append(make('span', { className: `verdict ${verdict.split(' ')[0]}`, textContent: `${sign}${VERDICTS[verdict] ?? verdict}${relative}` }));
+  out.append(make('span', { className: `verdict ${verdict.split(' ')[0]}`, textContent: `${sign}${VERDICTS[verdict] ?? verdict}${relative}${all}` }));
   return out;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Events of a scenario, a line each: '2:30:00 close pick3'.
 
+import { tr } from '../language/texts.js';
+
 const PICKER = ['seconds_a_piece', 'pickers'];
 
 const WORDS = {
@@ -33,6 +35,10 @@ export function eventsOf(text) {
     return { at: plain(at), [kind]: words.join(' ') };
   });
 }
+
+/** A refusal of the server, with the event that it is about as a person counts. */
+export const refusalOf = (text) => text.replace(/^events\[(\d+)\]\.?(\w*):?/, (_, i, key) => (
+  tr`Event ${Number(i) + 1}: ${key === 'at' ? tr`its time` : key}`));
 
 /** A number where a text is one. */
 function plain(text) {

@@ -4,7 +4,8 @@
 import { $, on } from '../base/dom.js';
 import { plural, tr } from '../language/texts.js';
 import { choose, fillDays, fillLayouts, fillPolicies, freeName, hintCounts, option, ordersText, partsOf, policiesOf, fitsOrders } from './choices.js';
-import { eventsOf, linesOf } from './events.js';
+import { eventsOf, linesOf, refusalOf } from './events.js';
+import { faultOf, goToFault } from './numbers.js';
 import { ask } from './server.js';
 import { dayOf, duration, layoutOf, robotsOf } from './words.js';
 
@@ -110,13 +111,17 @@ export class Form {
   /** Asks the server whether that can run, and for how long. */
   async estimate() {
     this.asked += 1;
-    const turn = this.asked;
+    const turn = this.asked, fault = faultOf(this.dialog);
+    if (fault) {
+      this.say(fault, 'refused');
+      return;
+    }
     try {
       const { seconds, robots, stations } = await ask('POST', '/estimate', { settings: this.settings() });
       const lost = this.hasRuns ? tr` Its runs are discarded where they are not of the scenario as it is then.` : '';
       if (turn === this.asked) this.say(tr`${robotsOf(robots)}, ${plural(stations, '{n} picking station', '{n} picking stations')}; it takes about ${duration(seconds)} here.${lost}`, '');
     } catch (error) {
-      if (turn === this.asked) this.say(error.message, 'refused');
+      if (turn === this.asked) this.say(refusalOf(error.message), 'refused');
     }
   }
 
@@ -126,13 +131,19 @@ export class Form {
   }
 
   async send(runs) {
+    const fault = faultOf(this.dialog);
+    if (fault) {
+      this.say(fault, 'refused');
+      goToFault(this.dialog);
+      return;
+    }
     try {
       await this.keep($('own-name').value, this.settings(), runs, this.old);
       this.dialog.close();
     } catch (error) {
       clearTimeout(this.timer);
       this.asked += 1;
-      this.say(error.message, 'refused');
+      this.say(refusalOf(error.message), 'refused');
     }
   }
 }

@@ -6,6 +6,7 @@ import { $, make, on } from '../base/dom.js';
 import { number } from '../language/numbers.js';
 import { tr } from '../language/texts.js';
 import { clock } from '../base/time.js';
+import { changesOf, refusalOf } from '../replay/changes.js';
 
 const PAUSE = 500; // between two looks for a forecast [ms]
 const MOST = 6; // forecasts side by side
@@ -19,11 +20,6 @@ const ROWS = [
   [tr`Made at, runs`, ({ made_at: at, runs }) => `${clock(at)}, ${number(runs)}`],
 ];
 
-/** The changes that lines say; a line without a time happens at once. */
-export function changesOf(text) {
-  return text.split('\n').map((line) => line.trim()).filter(Boolean).map((line) => (/^[+\d]/.test(line) ? line : `+0 ${line}`));
-}
-
 /** The last of a band, as '414 (370–437)'. */
 export function rangeOf({ p10, p50, p90 }) {
   const [low, middle, high] = [p10, p50, p90].map((values) => number(Math.round(values.at(-1))));
@@ -36,8 +32,8 @@ export function endOf({ p10, p50, p90 }) {
   return `${clock(p50)} (${clock(p10)}–${p90 === null ? 'later' : clock(p90)})`;
 }
 
-/** What a forecast's text says that changes make. */
-export const differenceOf = (text) => text.split(AGAINST)[1] ?? '';
+/** What a forecast's text says that changes make, a line each. */
+export const differenceOf = (text) => (text.split(AGAINST)[1] ?? '').replaceAll(', ', '\n');
 
 export class FromNow {
   constructor() {
@@ -59,7 +55,7 @@ export class FromNow {
       this.say('');
       this.show([...this.columns, forecast].slice(-MOST));
     } catch (error) {
-      this.say(error.message);
+      this.say(refusalOf(error.message, $('now-changes').value), 'refused');
     } finally {
       $('now-go').disabled = false;
     }
@@ -76,8 +72,10 @@ export class FromNow {
     }
   }
 
-  say(text) {
+  say(text, kind = '') {
     $('now-told').textContent = text;
+    $('now-told').className = kind ? 'answer' : 'dim';
+    $('now-told').dataset.kind = kind;
   }
 
   show(columns) {

@@ -4,6 +4,7 @@
 import { $, on } from '../base/dom.js';
 import { tr } from '../language/texts.js';
 import { fillLayouts, freeName, hintCounts } from './choices.js';
+import { faultOf, goToFault } from './numbers.js';
 import { ask } from './server.js';
 import { duration, layoutOf } from './words.js';
 
@@ -11,26 +12,43 @@ const SIDES = ['first', 'second'];
 const PRESETS = ['small', 'medium'];
 
 export class Intro {
-  /**
-   * start(pairs): makes [name, settings] of both, runs and compares them.
-   * mended(): called as soon as the form changes, so that an earlier refusal goes.
-   */
-  constructor(about, start, mended) {
-    this.about = about;
+  /** start(pairs): makes [name, settings] of both, runs and compares them; rejects with the reason. */
+  constructor(about, start) {
+    Object.assign(this, { about, start });
     this.offer();
     SIDES.forEach((side, i) => { $(`${side}-layout`).value = PRESETS[i]; });
     $('intro-minutes').value = about.defaults.minutes;
     $('intro-seeds').value = about.defaults.seeds;
     for (const what of ['minutes', 'seeds']) $(`intro-${what}`).max = about.most[what];
+    for (const side of SIDES) $(`${side}-robots`).max = about.most.robots;
     on($('intro-form'), 'submit', (event) => {
       event.preventDefault();
-      start(this.pairs());
+      this.send();
     });
-    on($('intro-form'), 'input', () => {
-      mended();
-      this.changed();
-    });
+    on($('intro-form'), 'input', () => this.changed());
     this.changed();
+  }
+
+  async send() {
+    const fault = faultOf($('intro-form'));
+    if (fault) {
+      this.say(fault, 'refused');
+      goToFault($('intro-form'));
+      return;
+    }
+    try {
+      await this.start(this.pairs());
+    } catch (error) {
+      this.say(error.message, 'refused');
+    }
+  }
+
+  /** Says beside the button how long it takes, or what is wrong: a refusal goes with the next change. */
+  say(text, kind) {
+    clearTimeout(this.timer);
+    $('intro-time').textContent = text;
+    $('intro-time').className = kind === 'refused' ? 'answer' : 'dim';
+    $('intro-time').dataset.kind = kind;
   }
 
   /** Offers what files there are. */
@@ -64,11 +82,16 @@ export class Intro {
   }
 
   async estimate() {
+    const fault = faultOf($('intro-form'));
+    if (fault) {
+      this.say(fault, 'refused');
+      return;
+    }
     try {
       const each = await Promise.all(SIDES.map((side) => ask('POST', '/estimate', { settings: this.settings(side) })));
-      $('intro-time').textContent = tr`takes about ${duration(each.reduce((sum, { seconds }) => sum + seconds, 0))} here`;
+      this.say(tr`takes about ${duration(each.reduce((sum, { seconds }) => sum + seconds, 0))} here`, '');
     } catch (error) {
-      $('intro-time').textContent = error.message;
+      this.say(error.message, 'refused');
     }
   }
 }

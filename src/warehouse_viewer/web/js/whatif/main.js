@@ -28,7 +28,7 @@ class Page {
     this.picks = new Picks(about.most.compared, () => this.showPicks());
     this.comparison = new Comparison((name) => this.picks.makeFirst(name));
     this.form = new Form(about, (...kept) => this.keep(...kept));
-    this.intro = new Intro(about, (pairs) => this.attempt(() => this.start(pairs)), () => this.notice.clear());
+    this.intro = new Intro(about, (pairs) => this.start(pairs));
     this.designs = new Designs(this);
     this.fromNow = new FromNow();
     this.actions = this.makeActions();

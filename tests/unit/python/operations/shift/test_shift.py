@@ -455,14 +455,22 @@ def test_an_order_that_is_made_urgent_comes_before_older_ones(tmp_path):
     ops.run(minutes=5)
     events = events_of(ops)
     urgent = list(ops.shift.backlog)[-1]
-    assert ops.shift.change_order(urgent.order_id, 9, 1800.0) == (True, "priority 9, due at 1800 s")
-    assert events == [(urgent.order_id, 8, "", 0, "", 0, "priority 9, due at 1800 s")]
+    said = "priority 9, due at 0:30:00"
+    assert ops.shift.change_order(urgent.order_id, 9, 1800.0) == (True, said)
+    assert events == [(urgent.order_id, 8, "", 0, "", 0, said)]
     assert next(ops.shift.backlog.by_urgency()) is urgent
     assert [order.order_id for order in ops.shift.backlog] == sorted(ops.shift.backlog.orders)
     there = next(o for o in ops.shift.orders.values() if o.station and not o.done)
     assert ops.shift.change_order(there.order_id, None, 0.0)[0] and there.due == 0
     likely, units = ops.shift.likely_completion(there.order_id)
     assert likely > ops.shift.now and set(units) <= ops.shift.inventory.of_unit.keys()
+    # What others took less time for says nothing about an order that has waited for longer.
+    waiting = next(iter(ops.shift.backlog))
+    age = ops.shift.now - waiting.created
+    ops.shift.tally.turnover_s[:] = [age / 2] * 20 + [age + 30, age + 60, age + 90]
+    assert ops.shift.likely_completion(waiting.order_id) == (ops.shift.now + 60, [])
+    ops.shift.tally.turnover_s.pop()
+    assert ops.shift.likely_completion(waiting.order_id) == (0.0, [])
     ops.run(minutes=5)
     assert urgent.station and urgent.priority == 9
     ops.close()

@@ -77,7 +77,7 @@ class PaperRobot(LimitedRobot):
     @property
     def speed(self):
         """That of the present edge, of 1 m [m/s]."""
-        return min(TOP, self.limits.get(self.reached, TOP))
+        return min(TOP, self.limits.get(min(self.reached, len(self.path) - 1), TOP))
 
     def init_position(self, x, y, yaw):
         return ""

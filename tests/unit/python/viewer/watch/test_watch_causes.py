@@ -87,6 +87,33 @@ def test_robots_behind_a_manual_one_are_an_alarm_of_that():
     assert actions == ["SHOW", "OUT_OF_SERVICE", "AUTOMATIC", "MOMENT"]
 
 
+def test_what_has_waited_for_a_repaired_robot_is_given_time():
+    waits = {n: (n - 1 or 9, 100.0, "until its route is free") for n in (1, 2)}
+    state = coordinator(waits | {9: (0, 100.0, "until its route is free")})
+    reasons = Reasons()
+    for now, broken, expected in (
+        (NOW, [9], ["ROBOT_BROKEN"]),
+        (NOW + 1, [], []),
+        (NOW + troubles.HELD_UP - 1, [], []),
+        (NOW + troubles.HELD_UP + 1, [], ["ROBOT_WAITS"]),
+    ):
+        state.header.stamp = state.header.stamp.from_sec(now)
+        message = fleet(9, broken)
+        reasons.update(now, message, state, (), {}, {})
+        pending = [*troubles.of_fleet(message), *troubles.of_coordinator(state)]
+        alarms = causes.by_cause(pending, reasons, now)
+        assert [alarm.kind for alarm in alarms] == expected, now
+    assert alarms[0].since == NOW + 1
+
+
+def test_a_queue_behind_a_robot_that_works_is_no_fault():
+    waits = {n: (n - 1 or 9, 700.0, "until its route is free") for n in (1, 2)}
+    _, alarms = situation(fleet(9), coordinator(waits))
+    assert alarms == []
+    _, (alarm,) = situation(fleet(9), coordinator(waits | {9: (0, 700.0, "for a free cell")}))
+    assert alarm.headline == "kiva9 waits for a free cell: 2 robots wait behind it"
+
+
 def test_a_ring_of_robots_is_one_alarm():
     waits = {n: (n % 3 + 1, 100.0, "behind another") for n in (1, 2, 3)}
     _, alarms = situation(fleet(4), coordinator(waits))

@@ -91,6 +91,11 @@ def test_four_figures_have_targets_and_their_last_hour():
     assert four["pieces"]["early"] and four["orders"]["early"] and not four["late"]["early"]
     throughput.end = 900
     assert not figures.as_json(kpis, throughput, 0.9, 20)["pieces"]["early"]
+    assert not four["pieces"]["enough"]  # 5 orders wait
+    kpis.orders_waiting = 0
+    assert not figures.as_json(kpis, throughput, 0.9, 20)["pieces"]["enough"]  # 300 of 360 are done
+    throughput.orders_completed = [6] * 11
+    assert figures.as_json(kpis, throughput, 0.9, 20)["pieces"]["enough"]
     assert len(four["pieces"]["values"]) == 10  # the interval that goes on is none yet
     assert four["orders"]["target"] == pytest.approx(360, abs=1)
     assert (four["late"]["value"], four["late"]["target"]) == (0.01, 0.02)

@@ -251,7 +251,7 @@ def test_the_queue_is_bounded(tmp_path):
         ({"layout": "none.layout.yaml"}, "layouts/none.layout.yaml: No such file"),
         ({"layout": "small", "robots": 900}, "small: 900 robots, but there is room for 31"),
         ({"robots": True}, "robots is True; a whole number from 0 to 20000 was expected"),
-        ({"layout": "small", "stations": 3}, "stations is 3; small has 2 for picking"),
+        ({"layout": "small", "stations": 3}, "3 picking stations open; small has 2"),
         ({"orders": "fill:x"}, "orders are 'fill:x'; a number above 0"),
         ({"orders": "mix:1:/etc/x.csv"}, "orders is 'mix:1:/etc/x.csv'; fill,"),
         ({"orders": "none.csv"}, "orders/none.csv: No such file"),
@@ -397,6 +397,11 @@ def test_differences_are_told_where_they_are_above_chance():
         if difference and difference["half"] is not None and difference["mean"]:
             is_apart = abs(difference["mean"]) > difference["half"]
             assert is_apart == (cell["verdict"] != "no difference shown"), cell
+    # Stations that are busy all the time pick as much in each run: there is no deviation to test.
+    busy = figures.comparison({"first": first, "double": [run(s, [20] * 30) for s in (1, 2, 3)]})
+    picked = busy["rows"][0]["cells"][1]
+    assert (picked["verdict"], picked["alike"], picked["relative"]) == ("better", 3, 1.0)
+    assert row["pieces"][3]["alike"] == 0
     assert result["limits"][0] == {"what": "the orders and the stock", "when": ""}
     turned = figures.comparison({"more": more, "first": first})
     assert turned["rows"][0]["cells"][1]["verdict"] == "worse"

@@ -66,13 +66,31 @@ def button(page, name, text):
     page.driver.find_element("css selector", f"button[aria-label='{label}']").click()
 
 
+def test_a_wrong_number_is_said_once_in_the_words_of_the_page(page):
+    said = "document.getElementById('intro-time').textContent"
+    for field, text, expected in (
+        ("first-robots", "0", "Robots: a whole number from 1 to 20,000 is expected."),
+        ("first-robots", "1000000000", "Robots: a whole number from 1 to 20,000 is expected."),
+        ("intro-seeds", "0", "Repetitions: a whole number from 1 to 50 is expected."),
+    ):
+        write(page, field, text)
+        page.until(f"{said} === '{expected}'")
+        page.driver.find_element("css selector", "#intro-form .strong").click()
+        page.until(f"document.activeElement.id === '{field}' && {said} === '{expected}'")
+        assert page.read("document.getElementById('told').textContent") == ""
+        write(page, field, "4")
+        page.until(f"{said}.startsWith('takes about')")
+    page.driver.find_element("id", "first-robots").clear()
+    assert page.complaints() == []
+
+
 def test_a_refusal_goes_when_its_field_is_mended(page):
-    refusal = "document.getElementById('told').textContent"
+    refusal = "document.getElementById('intro-time').textContent"
     write(page, "first-robots", "1000")
     page.driver.find_element("css selector", "#intro-form .strong").click()
-    page.until(f"{refusal}.includes('1000 robots, but there is room for 31')")
+    page.until(f"{refusal}.includes('1,000 robots, but there is room for 31')")
     write(page, "first-robots", "4")
-    assert page.read(refusal) == ""
+    page.until(f"{refusal}.startsWith('takes about')")
     page.driver.find_element("id", "first-robots").clear()
     # The server's refusal is in the console too, and is no fault of the page.
     page.complaints()
@@ -118,7 +136,7 @@ def test_a_scenario_is_duplicated_changed_renamed_and_deleted(page):
     write(page, "own-stations", "9")
     page.click_on("editor-save")
     result = "document.getElementById('editor-told').textContent"
-    page.until(f"{result}.startsWith('stations is 9; small has 2 for picking')")
+    page.until(f"{result}.startsWith('9 picking stations open; small has 2')")
     write(page, "own-stations", "1")
     page.driver.find_element("css selector", "#own-orders [value=mix]").click()
     page.click_on("editor-save")
@@ -180,7 +198,7 @@ def test_a_day_and_its_events_are_taken(page, tmp_path):
     page.driver.find_element("css selector", "#events summary").click()
     write(page, "own-events", "1m shut pick1")
     result = "document.getElementById('editor-told').textContent"
-    page.until(f"{result}.includes('a list of events')")
+    page.until(f"{result}.startsWith('Event 1: shut is unknown; close, open')")
     write(page, "own-events", "1m close pick1\n90s open pick1")
     write(page, "own-name", "a day")
     page.click_on("editor-save")

@@ -47,17 +47,22 @@ bool reply(Response& response, Body body) {
   return true;
 }
 
-/// Advertises a service with such responses: `body(request, response)` returns the status text.
-/// `label`: the service's name in texts.
+/// Returns what answers requests with such responses: `body(request, response)` returns the status
+/// text. `label`: the service's name in texts.
+template <typename Body>
+auto answering(const std::string& label, Body body) {
+  return [label, body](auto& request, auto& response) {
+    return answer(label, response, [&] { return std::string(body(request, response)); });
+  };
+}
+
+/// Advertises a service that answering() answers.
 template <typename Service, typename Body>
 ros::ServiceServer serve(ros::NodeHandle& node, const std::string& name, const std::string& label,
                          Body body) {
   using Request = typename Service::Request;
   using Response = typename Service::Response;
-  const boost::function<bool(Request&, Response&)> call = [label, body](Request& request,
-                                                                        Response& response) {
-    return answer(label, response, [&] { return std::string(body(request, response)); });
-  };
+  const boost::function<bool(Request&, Response&)> call = answering(label, body);
   return node.advertiseService<Request, Response>(name, call);
 }
 
@@ -65,12 +70,8 @@ ros::ServiceServer serve(ros::NodeHandle& node, const std::string& name, const s
 template <typename Service, typename Body>
 ros::ServiceServer serveChange(ros::NodeHandle& node, const std::string& name,
                                const std::string& label, Body body) {
-  using Request = typename Service::Request;
-  using Response = typename Service::Response;
-  const auto call = [label, body](const Request& request, Response& response) {
-    return answer(label, response, [&] { return std::string(body(request, response)); });
-  };
-  return serveCommand<Request, Response>(node, name, call);
+  return serveCommand<typename Service::Request, typename Service::Response>(
+      node, name, answering(label, body));
 }
 
 }  // namespace kiva_ros

@@ -28,6 +28,24 @@ class Hold {
   SimulationThread& simulation_;
 };
 
+constexpr std::size_t kToldNames = 20;
+
+/// Returns a request as it is published: it may hold a whole warehouse.
+warehouse_msgs::ReplaceModels::Request toTell(
+    const warehouse_msgs::ReplaceModels::Request& request) {
+  warehouse_msgs::ReplaceModels::Request summary;
+  summary.kinds = request.kinds;
+  const std::size_t count = std::min(request.names.size(), kToldNames);
+  summary.names.assign(request.names.begin(), request.names.begin() + count);
+  if (count < request.names.size()) {
+    summary.names.push_back("… and " + std::to_string(request.names.size() - count) + " more");
+  }
+  for (const std::string& text : request.documents) {
+    summary.documents.push_back("SDF of " + std::to_string(text.size()) + " bytes");
+  }
+  return summary;
+}
+
 void checkCaller(const std::function<bool()>& is_abandoned) {
   if (is_abandoned()) throw ServiceRefusal("the client has gone, or the world ends");
 }
@@ -39,9 +57,11 @@ ReplaceService::ReplaceService(ros::NodeHandle& node, SimulationThread& simulati
     : simulation_(simulation),
       model_paths_(std::move(model_paths)),
       sources_(sources),
+      calls_(node.resolveName("replace_models")),
       server_(node.advertiseService("replace_models", &ReplaceService::replace, this)) {}
 
 bool ReplaceService::replace(ros::ServiceEvent<Request, Response>& event) {
+  calls_.tell(event.getCallerName(), toTell(event.getRequest()));
   const ServiceCaller caller(server_.getService(), event.getConnectionHeader());
   Response& response = event.getResponse();
   bool changed = false;

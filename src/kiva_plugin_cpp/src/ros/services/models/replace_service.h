@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kiva_plugin_cpp/world_file.h"
+#include "ros/services/base/command_service.h"
 #include "ros/services/base/progress.h"
 #include "ros/services/models/model_sources.h"
 #include "ros/services/models/replacement.h"
@@ -53,6 +54,7 @@ class ReplaceService {
   SimulationThread& simulation_;
   const kiva::ModelPaths model_paths_;
   ModelSources& sources_;
+  CallTopic calls_;
   ros::ServiceServer server_;
 };
 

@@ -113,6 +113,7 @@ class Figure(BaseModel):
     value: float
     target: float = Field(description="0: none is known yet")
     early: bool = Field(description="the shift is younger than what the value is the mean of")
+    enough: bool = Field(description="all is done that is ordered: a target above it means nothing")
     of: float = Field(description="of which it is a part, such as the upper bound; 0: of nothing")
     times: list[float] = Field(description="of the values [s], simulated")
     values: list[float]
