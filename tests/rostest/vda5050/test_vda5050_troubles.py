@@ -228,7 +228,8 @@ class Troubles(BrokerCase):
     def test_9_a_vehicle_with_4_percent_gets_no_transport(self):
         """Another robot gets it that is farther away."""
         self.other.fault("battery")
-        wait_until(lambda: self.other.vehicle.state().battery.charge == 4, "the charge")
+        self.other.do(self.other.vehicle.request_state)
+        wait_until(lambda: self.row(OTHER)["charge"] < 0.05, "the charge")
         set_modes(AUTOMATIC, OTHER, 1)
         wait_until(lambda: self.state.messages[-1].automatic == 3, "three robots")
         begin = len(self.transports.messages)
