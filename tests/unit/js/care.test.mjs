@@ -15,7 +15,8 @@ test('a station says why it waits, its unit, its queue and what is on its way', 
   const why = 'waits for unit 7 on kiva3, which waits in the queue of pick1 behind kiva16, which is broken';
   const queue = [{ unit: 7, robot: 3 }, { unit: 9, robot: 0 }];
   const facts = Object.fromEntries(factsOfStation({ ...NONE, activity: 'WAITING', orders: [4, 5], queue, why }, 100, link));
-  assert.equal(facts.why, `${why}, for 90 s`);
+  assert.equal(facts.why.map((part) => (typeof part === 'string' ? part : part.link).replace('storage_', '').replace('unit7', 'unit 7')).join(''), `${why}, for 90 s`);
+  assert.deepEqual(facts.why.filter((part) => part.isInText), ['storage_unit7', 'kiva3', 'kiva16'].map((name) => ({ ...link(name), isInText: true })));
   assert.deepEqual(facts.queue, [link('kiva3')]);
   assert.deepEqual(facts['on its way'], [link('storage_unit7'), link('storage_unit9')]);
   assert.deepEqual([facts.unit, facts.orders], ['none is there', '2']);

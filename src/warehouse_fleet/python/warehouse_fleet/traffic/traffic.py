@@ -174,7 +174,8 @@ class Traffic:
         ahead = robots.waits_for.copy()
         after = np.where(robots.cell != NOWHERE, self._after[robots.cell], NOWHERE)
         asks = np.flatnonzero((ahead == NOWHERE) & ~robots.busy & (after != NOWHERE))
-        ahead[asks] = self._execution.holders(after[asks])
+        by = self._execution.holders(after[asks])
+        ahead[asks] = np.where(by != asks, by, NOWHERE)  # it may hold that cell itself
         self._look_for_barring(ahead)
         return ahead
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from warehouse_viewer.watch.alarm_book import OF_ROBOT, Trouble
 from warehouse_viewer.watch.alarm_kinds import KINDS
 from warehouse_viewer.watch.reasons import Reasons
-from warehouse_viewer.watch.troubles import QUEUED, patience
+from warehouse_viewer.watch.troubles import QUEUED, STARVED, patience
 
 SHOWN = 6  # robots that a consequence names
 MINUTE = 60.0  # [s]
@@ -33,9 +33,16 @@ def by_cause(pending: Iterable[Trouble], reasons: Reasons, now: float) -> list[T
         robot = int(name.removeprefix("kiva"))
         causes[name] = _with_queue(cause, waiting.get(robot, []), stuck.get(robot, []), now)
     starved = {station for rows in stuck.values() for station, _, _ in rows}
-    rest = [t for t in rest if not (t.kind == "STATION_STARVED" and t.subject in starved)]
+    rest = [t for t in rest if t.kind != "STATION_STARVED" or _is_news(t, starved, reasons, now)]
     rest = _with_watchdog(causes, rest)
     return [*causes.values(), *rest]
+
+
+def _is_news(trouble: Trouble, explained: Collection[str], reasons: Reasons, now: float) -> bool:
+    """Returns whether a station stands still for no fault of a robot, and for as long as an alarm
+    takes: after a repair its next unit is on its way."""
+    station = trouble.subject
+    return station not in explained and now - reasons.explained(station) >= STARVED
 
 
 def _robots_at_fault(pending: Iterable[Trouble]) -> tuple[dict[str, Trouble], list[Trouble]]:
@@ -69,10 +76,10 @@ def _earlier(first: float | None, other: float | None) -> float | None:
 def _waits_by_root(
     rest: list[Trouble], causes: dict[str, Trouble], reasons: Reasons, now: float
 ) -> list[Trouble]:
-    """Leaves out robots that wait for one at fault, or for one that was at fault until a moment
-    ago: what has waited for it moves soon. Behind one that works a queue moves on, and is given the
-    time of one. Those that wait for a robot that a person
-    holds, or that itself waits, are one Trouble of that robot, which is added to `causes`."""
+    """Leaves out robots that wait for one at fault, or did until a moment ago: what has waited for
+    it moves soon. Behind one that works a queue moves on, and is given the time of one. Those that
+    wait for a robot that a person holds, or that itself waits, are one Trouble of that robot, which
+    is added to `causes`."""
     out = []
     for trouble in rest:
         if trouble.kind != "ROBOT_WAITS":
@@ -80,7 +87,9 @@ def _waits_by_root(
             continue
         root = reasons.root(int(trouble.subject.removeprefix("kiva")))
         name, known = f"kiva{root}", causes.get(f"kiva{root}")
-        since = max(trouble.since or 0.0, reasons.mended(root))
+        since = trouble.since or 0.0
+        if not reasons.fault(root):
+            since = max(since, *map(reasons.explained, (trouble.subject, name)))
         if now - since < (QUEUED if reasons.works(root) else patience(trouble.text)):
             continue
         if known is None:

@@ -82,7 +82,7 @@ class Reasons:
         self._waits: dict[int, tuple[int, float, str]] = {}  # robot ahead, since, why
         self._doing: dict[int, str] = {}
         self._faults: dict[int, str] = {}
-        self._mended: dict[int, float] = {}  # when faults ended
+        self._explained: dict[str, float] = {}  # until when a fault explained that one waits
         self._loads: dict[int, int] = {}  # unit by robot
         self._carriers: dict[int, int] = {}
         self._errands: dict[int, tuple[int, str, int]] = {}  # unit, station, order by robot
@@ -105,15 +105,14 @@ class Reasons:
         had no unit; `assigned`: the unit and the station of each robot with a transport;
         `held`: why units wait for a closed zone."""
         if now < self._now:
-            self._past, self._mended = {}, {}
+            self._past, self._explained = {}, {}
         self._now, self._starved, self._held = now, starved, held
         self._stations = {station.name: station for station in stations}
-        faulty = self._faults.keys()
         self._take_fleet(fleet)
         self._take_coordinator(coordinator)
-        self._mended |= dict.fromkeys(faulty - self._faults.keys(), now)
         self._take_errands(assigned)
         self._remember()
+        self._explain()
 
     def _take_fleet(self, fleet: FleetState | None) -> None:
         self._faults, self._loads, self._robots = {}, {}, frozenset()
@@ -161,14 +160,15 @@ class Reasons:
                 self._errands[robot] = unit, station, order
 
     def root(self, robot: int) -> int:
-        """Returns the robot at which the chain of waiting robots ends; itself if it waits for
-        none."""
+        """Returns the robot at which the chain of waiting robots ends: the first at fault, or that
+        waits for none; itself if it is one."""
         passed = {robot}
-        while (ahead := self._waits.get(robot, (0,))[0]) and ahead not in passed:
+        while not self.fault(robot) and (ahead := self._waits.get(robot, (0,))[0]):
+            if ahead in passed:
+                return min(passed)  # all robots of a ring have the same root
             passed.add(ahead)
             robot = ahead
-        # All robots of a ring have the same root.
-        return min(passed) if ahead else robot
+        return robot
 
     def fault(self, robot: int) -> str:
         """Returns why a robot can't drive autonomously, as "broken (drive)"; else empty."""
@@ -178,9 +178,17 @@ class Reasons:
         """Returns whether a robot drives autonomously and waits for nothing."""
         return robot not in self._waits and not self.fault(robot)
 
-    def mended(self, robot: int) -> float:
-        """Returns since when a robot drives autonomously again [s]; 0 where it always has."""
-        return self._mended.get(robot, 0.0)
+    def explained(self, name: str) -> float:
+        """Returns until when a robot at fault explained that a robot or station waits [s]; 0: it
+        never did."""
+        return self._explained.get(name, 0.0)
+
+    def _explain(self) -> None:
+        """Notes whom robots at fault hold up."""
+        behind = {robot for robot in self._waits if self.fault(self.root(robot))}
+        names = [f"kiva{robot}" for robot in self._faults.keys() | behind]
+        names += [station for rows in self.stuck().values() for station, _, _ in rows]
+        self._explained |= dict.fromkeys(names, self._now)
 
     def waiting(self) -> dict[int, list[int]]:
         """Returns the robots that wait for each root, the longest wait first."""

@@ -175,11 +175,17 @@ export function factsOfStation(station, now, link) {
   const units = queue.map(({ unit: next }) => next).filter((next) => next !== unit);
   const robots = queue.filter(({ robot }) => robot).map(({ robot }) => link(`kiva${robot}`));
   return [[tr`state`, !open && activity === 'RESTING' ? tr`closed` : STATION_STATES[activity]],
-    ...waits ? [[tr`why`, shownName(waits)]] : [],
+    ...waits ? [[tr`why`, linked(shownName(waits), link)]] : [],
     [tr`unit`, unit ? [link(`storage_unit${unit}`), tr` ${picks.length} to ${kind === 'PICK' ? tr`pick` : tr`put in`}`] : tr`none is there`],
     [tr`queue`, robots.length ? robots : tr`no robot`],
     ...units.length ? [[tr`on its way`, units.map((next) => link(`storage_unit${next}`))]] : [],
     ...kind === 'PICK' ? [[tr`orders`, String(orders.length)]] : []];
+}
+
+/** The parts of a sentence, of which robots and units are links. */
+function linked(text, link) {
+  return text.split(/\b(kiva\d+|unit \d+)\b/).filter(Boolean).map((part) => (
+    /^(kiva|unit )\d+$/.test(part) ? { ...link(part.replace(/^unit /, 'storage_unit')), isInText: true } : part));
 }
 
 const escaped = (text) => text.replaceAll(/[.*+?^${}()|[\]\\]/g, '\\$&');

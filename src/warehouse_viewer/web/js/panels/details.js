@@ -192,7 +192,7 @@ export class Details {
   /** A value as it is shown: a text, or a link to a thing. */
   shown(value) {
     if (typeof value !== 'object') return value;
-    return make('button', { textContent: shownName(value.link), click: () => this.select(value.link) });
+    return make('button', { textContent: shownName(value.link), className: value.isInText ? 'link-text' : '', click: () => this.select(value.link) });
   }
 
   // --- commands; `at` is where in the window the answer belongs

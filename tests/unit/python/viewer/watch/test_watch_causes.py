@@ -73,6 +73,14 @@ def test_a_broken_robot_is_one_alarm_with_its_queue_and_its_station():
     assert "kiva1, kiva2" in alarm.consequences[0] and "unit 23" in alarm.consequences[1]
 
 
+def test_a_broken_robot_that_waits_is_where_the_queue_begins():
+    waits = {8: (14, 700.0, "behind kiva14, which is broken")}
+    waits[14] = (8, 700.0, "behind kiva8")  # before it broke down
+    waits |= {15: (8, 300.0, "in the queue of pick3 behind kiva8, in a queue behind kiva14")}
+    _, (alarm,) = situation(fleet(15, [14]), coordinator(waits))
+    assert alarm.headline == "kiva14 is broken (drive): 2 robots wait behind it"
+
+
 def test_two_failures_are_two_alarms_each_with_its_own():
     waits = queue(3) | {8: (18, 100.0, "behind kiva18, which is broken")}
     _, alarms = situation(fleet(20, [16, 18]), coordinator(waits))
@@ -103,7 +111,28 @@ def test_what_has_waited_for_a_repaired_robot_is_given_time():
         pending = [*troubles.of_fleet(message), *troubles.of_coordinator(state)]
         alarms = causes.by_cause(pending, reasons, now)
         assert [alarm.kind for alarm in alarms] == expected, now
-    assert alarms[0].since == NOW + 1
+    assert alarms[0].since == NOW
+
+
+def test_a_queue_that_moves_on_after_a_repair_is_no_alarm():
+    first = queue(3)  # behind kiva16
+    reasons, starved = Reasons(), {"pick4": 40.0}
+    for now, broken, waits, expected in (
+        (NOW, [16], first, ["ROBOT_BROKEN"]),
+        # The first has gone; the others have stood for as long as before.
+        (NOW + 5, [], {n: first[n] for n in (2, 3)}, []),
+        (NOW + 10, [], {3: (0, 800.0, "until its route is free")}, []),
+        (NOW + troubles.STARVED + 1, [], {}, ["STATION_STARVED"]),
+    ):
+        state, message = coordinator(waits), fleet(20, broken, {1: 23})
+        reasons.update(now, message, state, [STATION], starved, {})
+        pending = [
+            *troubles.of_fleet(message),
+            *troubles.of_coordinator(state),
+            *troubles.of_stations([STATION], now, starved),
+        ]
+        alarms = causes.by_cause(pending, reasons, now)
+        assert [alarm.kind for alarm in alarms] == expected, now
 
 
 def test_a_queue_behind_a_robot_that_works_is_no_fault():
