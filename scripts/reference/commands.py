@@ -110,7 +110,13 @@ def helped(command: list[str]) -> str:
     run = runpy.run_module if as_module else runpy.run_path
     beside = [] if as_module else [str(Path(argv[0]).parent)]  # as if it was started itself
     paths = mock.patch.object(sys, "path", [*beside, *sys.path])
-    with environment, arguments, paths, contextlib.redirect_stdout(out), contextlib.suppress(SystemExit):
+    with (
+        environment,
+        arguments,
+        paths,
+        contextlib.redirect_stdout(out),
+        contextlib.suppress(SystemExit),
+    ):
         run(argv[0], run_name="__main__")
     for subcommand, handler in handlers.items():
         signal.signal(subcommand, handler)
