@@ -4,38 +4,21 @@
 time, although its states come once a cell."""
 
 import math
-import signal
-import subprocess
-import tempfile
-import threading
-import time
-import unittest
-from pathlib import Path
 
 import rospy
 import rostest
-from rostest_support.node_test import call, latched, wait_until
-from rostest_support.warehouse_test import Collector
+from rostest_support.behind_broker import NUMBER, OUT_OF_SERVICE, BrokerCase, set_modes
+from rostest_support.node_test import call, latched
 
-from warehouse_client.warehouse import WarehouseClient
-from warehouse_msgs.msg import CoordinatorState, FleetState, TransportEvent
-from warehouse_msgs.srv import SetRobotMode, Transport
-from warehouse_vda5050.codec import codec_for
+from warehouse_msgs.msg import CoordinatorState, TransportEvent
+from warehouse_msgs.srv import Transport
 from warehouse_vda5050.formula_driver import FormulaRobot
-from warehouse_vda5050.mqtt.broker import OwnBroker
-from warehouse_vda5050.mqtt.loop import MqttLoop
-from warehouse_vda5050.mqtt.settings import BrokerSettings
-from warehouse_vda5050.mqtt.vehicle_link import VehicleLink
-from warehouse_vda5050.ros.floor import grid_of, read_map
-from warehouse_vda5050.topics import Identity, Topics
-from warehouse_vda5050.vehicle import Vehicle
 
-NUMBER, OUT_OF_SERVICE = 21, 2
 TOP, ACCELERATION = 1.5, 1.0  # of the vehicle [m/s, m/s2]
 RAMP = TOP**2 / (2 * ACCELERATION)  # in which it reaches that, and brakes from it [m]
 SLOWEST = 0.6 * TOP  # of a drive without a stop; messages of a busy machine are late [m/s]
 LONG = 6.0  # least length of a stretch that is judged [m]
-STEP, PATIENCE = 0.01, 120.0  # [s, wall]
+PATIENCE = 120.0  # [s, wall]
 
 
 class Cart(FormulaRobot):
@@ -71,25 +54,6 @@ class Cart(FormulaRobot):
         return way
 
 
-class Behind(threading.Thread):
-    """The vehicle, with its connection, in a thread of its own."""
-
-    def __init__(self, robot, grid, port):
-        super().__init__(daemon=True)
-        self.robot, self.ended = robot, threading.Event()
-        who, broker = Identity("acme", "7"), BrokerSettings("localhost", port)
-        self.link = VehicleLink(Vehicle(robot, grid), who, codec_for(), Topics(), broker)
-
-    def run(self):
-        loop, before = MqttLoop(), time.monotonic()
-        loop.add(self.link.link)
-        while not self.ended.is_set():
-            loop.poll(STEP)
-            before, now = time.monotonic(), before
-            self.robot.step(before - now)
-            self.link.tick(before)
-
-
 def stretches(drive):
     """Straight stretches of a drive, as [(way from the begin [m], speed [m/s])]."""
     runs, run, axis = [], [], None
@@ -105,46 +69,13 @@ def stretches(drive):
     return [*runs, run]
 
 
-class Fluent(unittest.TestCase):
+class Fluent(BrokerCase):
     @classmethod
     def setUpClass(cls):
-        cls.fleet = Collector("/warehouse/fleet", FleetState)
-        cls.state = Collector("/warehouse/coordinator", CoordinatorState)
-        cls.transports = Collector("/warehouse/transports", TransportEvent)
-        cls.state.first(lambda state: state.automatic == 4, PATIENCE)
-        for number in (1, 2, 3, 4):  # the way is free
-            call("/warehouse/set_robot_mode", SetRobotMode, kiva_id=number, mode=OUT_OF_SERVICE)
-        warehouse = WarehouseClient(rospy)
-        wait_until(lambda: warehouse.is_known, "the warehouse")
-        cls.broker, grid = OwnBroker(), grid_of(read_map())
-        cls.behind = Behind(Cart(*cls.free_place(warehouse.plan(), grid)), grid, cls.broker.port)
-        cls.behind.start()
+        super().setUpClass()
+        set_modes(OUT_OF_SERVICE)  # the way is free
+        cls.behind = cls.add_vehicle(Cart(*cls.free_points()[0]))
         cls.start_master()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.node.send_signal(signal.SIGINT)
-        cls.node.wait(20)
-        cls.behind.ended.set()
-        cls.broker.close()
-
-    @classmethod
-    def free_place(cls, plan, grid):
-        """The middle of a parking cell that no robot is near [m]."""
-        fleet = cls.fleet.messages[-1]
-        taken = {int(cell) for cell in plan.cell_of(fleet.x, fleet.y)}
-        columns = plan.shape[1]
-        cell = next(int(c) for c in plan.parking.ravel().nonzero()[0] if int(c) not in taken)
-        return grid.position((cell % columns, cell // columns))
-
-    @classmethod
-    def start_master(cls):
-        file = Path(tempfile.mkdtemp()) / "robots.yaml"
-        file.write_text(f"{NUMBER}: {{manufacturer: acme, serial: '7'}}\n")
-        rospy.set_param("/vda5050_master/robots", str(file))
-        rospy.set_param("/vda5050_master/broker", f"localhost:{cls.broker.port}")
-        command = ["setpriv", "--pdeathsig", "TERM", "rosrun", "warehouse_vda5050", "master"]
-        cls.node = subprocess.Popen(command)
 
     def speeds(self):
         """The speeds that the fleet has told of the vehicle [m/s]."""

@@ -8,16 +8,16 @@ import json
 import paho.mqtt.publish
 import rospy
 import rostest
+from rostest_support.behind_broker import AUTOMATIC, MANUAL, NUMBER, PATIENCE, SIMULATED, set_modes
 from rostest_support.node_test import call, latched, wait_until
-from test_vda5050_master import NUMBER, PATIENCE, MetricRobot, VehicleCase
+from test_vda5050_master import MetricRobot, VehicleCase
 
 from warehouse_msgs.msg import CoordinatorState, Event, TransportEvent, Vda5050
-from warehouse_msgs.srv import SetRobotMode, Transport
+from warehouse_msgs.srv import Transport
 from warehouse_vda5050.codec import codec_for
 from warehouse_vda5050.model import Factsheet
 
 UNIT, LIMIT = 7, 30.0  # an empty unit weighs 60 kg
-SIMULATED = (1, 2, 3, 4)
 
 
 class SmallRobot(MetricRobot):
@@ -32,16 +32,11 @@ class Sheet(VehicleCase):
 
     def refusals(self):
         """The texts of what the vehicle has refused."""
-        return [
-            event.text
-            for event in self.events.messages
-            if event.kind == Event.REFUSED and event.model == f"kiva{NUMBER}"
-        ]
+        return self.texts(Event.REFUSED)
 
     def test_1_a_unit_that_is_too_heavy_goes_to_another_robot(self):
         self.state.first(lambda state: state.automatic == 5, PATIENCE)
-        for number in SIMULATED:
-            call("/warehouse/set_robot_mode", SetRobotMode, kiva_id=number, mode=1)
+        set_modes(MANUAL)
         answer = call("/warehouse/transport", Transport, shelf_id=UNIT, station="pick1", then=0)
         self.assertTrue(answer.accepted, answer.message)
         wait_until(self.refusals, "the refusal", PATIENCE)
@@ -52,8 +47,7 @@ class Sheet(VehicleCase):
             rf" and .* carries {LIMIT:g} kg$",
         )
         self.assertEqual(self.behind.robot.events, [])  # it has not moved
-        for number in SIMULATED:
-            call("/warehouse/set_robot_mode", SetRobotMode, kiva_id=number, mode=0)
+        set_modes(AUTOMATIC)
         arrived = self.transports.first(lambda e: e.kind == TransportEvent.ARRIVED, PATIENCE)
         self.assertIn(arrived.kiva_id, SIMULATED)
         events = [e for e in self.transports.messages if e.kind == TransportEvent.ASSIGNED]

@@ -4,8 +4,9 @@
 
 import rospy
 import rostest
+from rostest_support.behind_broker import PATIENCE
 from rostest_support.node_test import call, latched, wait_until
-from test_vda5050_master import PATIENCE, VehicleCase
+from test_vda5050_master import VehicleCase
 
 from warehouse_msgs.msg import CoordinatorState
 from warehouse_msgs.srv import CloseZone, OpenZone

@@ -4,24 +4,23 @@
 a real broker, placed by a click, driven by the coordinator with its planned path drawn, known to a
 master that is restarted, and removed."""
 
-import signal
-import subprocess
-import tempfile
-from pathlib import Path
-
 import rospy
 import rostest
 from rostest_support import axe
+from rostest_support.behind_broker import (
+    OUT_OF_SERVICE,
+    PATIENCE,
+    BrokerCase,
+    begin,
+    end,
+    set_modes,
+)
 from rostest_support.node_test import call, wait_until
 from rostest_support.page_test import PageTest, ask
-from rostest_support.warehouse_test import Collector
 
-from warehouse_client.warehouse import WarehouseClient
-from warehouse_msgs.msg import CoordinatorState, FleetState, TransportEvent
-from warehouse_msgs.srv import ReleaseTransport, SetRobotMode, Transport
-from warehouse_vda5050.mqtt.broker import OwnBroker
+from warehouse_msgs.msg import TransportEvent
+from warehouse_msgs.srv import ReleaseTransport, Transport
 
-PATIENCE = 60.0  # [s, wall]
 VERSION = "3.0.0"  # which has planned paths
 NAME, SERIAL, NUMBER, UNIT = "kiva/2", "2", 5, 7
 # Of two vehicles on a floor of 41 x 41 cells the second stands in the middle.
@@ -30,54 +29,25 @@ ROWS = "[...document.querySelectorAll('#vehicle-list li')].map((row) => row.text
 ANSWER = "document.getElementById('vehicle-answer').textContent"
 
 
-def begin(program, *arguments):
-    """Starts a program that ends with this test."""
-    command = ["setpriv", "--pdeathsig", "TERM", "rosrun", "warehouse_vda5050", program]
-    return subprocess.Popen([*command, *arguments])
-
-
-class VehiclesPage(PageTest):
+class VehiclesPage(BrokerCase, PageTest):
+    VERSION = VERSION
     ready = "page.world.scene.robots.length === 4 && page.fleet.runs"
 
     @classmethod
     def setUpClass(cls):
-        cls.fleet = Collector("/warehouse/fleet", FleetState)
-        cls.state = Collector("/warehouse/coordinator", CoordinatorState)
-        cls.transports = Collector("/warehouse/transports", TransportEvent)
-        cls.state.first(lambda state: state.automatic == 4, PATIENCE)
-        warehouse = WarehouseClient(rospy)
-        wait_until(lambda: warehouse.is_known, "the warehouse")
-        cls.plan = warehouse.plan()
-        cls.broker = OwnBroker()
-        address = f"localhost:{cls.broker.port}"
-        cls.virtual = begin("virtual", "--broker", address, *VIRTUAL)
-        cls.file = Path(tempfile.mkdtemp()) / "robots.yaml"
-        cls.file.write_text("99: {manufacturer: acme, serial: 'away'}\n")
-        for name, value in (("robots", cls.file), ("version", VERSION), ("broker", address)):
-            rospy.set_param(f"/vda5050_master/{name}", str(value))
-        cls.master = begin("master")
         super().setUpClass()
+        cls.virtual = begin("virtual", "--broker", f"localhost:{cls.broker.port}", *VIRTUAL)
+        cls.addClassCleanup(end, cls.virtual)
+        cls.start_master("99: {manufacturer: acme, serial: 'away'}\n")
         cls.page.read("localStorage.setItem('person', 'Ann') ?? true")
         cls.page.click_on("top")
-
-    @classmethod
-    def tearDownClass(cls):
-        for program in (cls.master, cls.virtual):
-            program.send_signal(signal.SIGINT)
-            program.wait(20)
-        cls.broker.close()
-        super().tearDownClass()
 
     def numbers(self):
         return {*self.fleet.messages[-1].kiva_id}
 
     def cell(self):
         """The middle of a free parking cell [m]."""
-        fleet = self.fleet.messages[-1]
-        taken = {int(cell) for cell in self.plan.cell_of(fleet.x, fleet.y)}
-        free = [c for c in self.plan.parking.ravel().nonzero()[0].tolist() if c not in taken]
-        x, y = self.plan.point_of(free[0])
-        return float(x), float(y)
+        return self.free_points()[0]
 
     def press(self, text):
         """Presses the button with that text in the row of the vehicle."""
@@ -142,8 +112,7 @@ class VehiclesPage(PageTest):
         self.assertEqual((commands[-1]["by"], commands[-1]["path"]), ("Ann", "/vda5050/vehicles"))
 
     def test_4_the_coordinator_drives_it_and_its_planned_path_is_drawn(self):
-        for number in (1, 2, 3, 4):
-            call("/warehouse/set_robot_mode", SetRobotMode, kiva_id=number, mode=2)
+        set_modes(OUT_OF_SERVICE)
         self.page.read(f"page.select('kiva{NUMBER}') ?? true")
         answer = call("/warehouse/transport", Transport, shelf_id=UNIT, station="pick1", then=0)
         self.assertTrue(answer.accepted, answer.message)
@@ -157,8 +126,7 @@ class VehiclesPage(PageTest):
         self.page.until("!page.planned.line.count")
 
     def test_5_a_master_that_is_restarted_knows_it(self):
-        self.master.send_signal(signal.SIGINT)
-        self.master.wait(20)
+        end(self.master)
         wait_until(lambda: not ask("/vda5050")[1], "no master", PATIENCE)
         type(self).master = begin("master")
         wait_until(

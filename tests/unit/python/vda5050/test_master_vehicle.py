@@ -175,7 +175,7 @@ def test_it_waits_at_the_end_of_what_is_released(bench):
     ("command", "why"),
     [
         (Follow(9, 0, (), 1), "none can be taken back"),
-        (Follow(9, 1, ((1.0, 0.0),), 3), "2 of 4 are released"),
+        (Follow(9, 1, ((1.0, 1.0),), 2), "2 of 4 are released"),
         (Follow(9, 0, (), 5), "5 of 4 points"),
         (Follow(8, 0, WAY, 2), "not idle"),
         (Lift(True, 3), "not idle"),
@@ -238,6 +238,50 @@ def test_a_vehicle_that_refuses_is_asked_less_and_less_often(bench):
     bench.take(bench.order(wait=31.0))
     bench.vehicle.command(Follow(9, 4, ((2.0, 2.0),), 5))
     assert bench.order()  # it accepted one, and is not waited for any more
+
+
+def refuse(bench, order):
+    refer = (("orderId", order.id), ("orderUpdateId", str(order.update)))
+    bench.tell(errors=(Error("orderUpdateError", description="no", references=refer),))
+    bench.tell(errors=())
+
+
+def test_after_a_refused_update_a_path_may_end_where_the_vehicle_stands(bench):
+    """The coordinator sends the last point that is to stay once more, which cuts off the others."""
+    bench.take(bench.follow(2), at=2)
+    bench.vehicle.command(Follow(9, 0, (), 4))
+    refuse(bench, bench.order())
+    bench.events()
+    bench.vehicle.command(Follow(9, 1, (WAY[1],), 2))
+    assert bench.events() == []
+    order = bench.order(wait=1.0)
+    assert [(n.id, n.released) for n in order.nodes] == [("c6_5", True)]
+    bench.take(order, at=2)
+    assert bench.events()[-1] == ("DONE", "done: follow path 9")
+
+
+def test_a_vehicle_that_was_put_elsewhere_is_asked_again_at_once(bench):
+    for wait in (0.0, 1.0, 2.0):
+        bench.vehicle.command(Follow(9, 0, WAY, 2))
+        refuse(bench, bench.order(wait))
+    bench.vehicle.command(Follow(9, 0, WAY, 2))
+    assert bench.sent(1.0) == []
+    bench.tell(position=AgvPosition(0.0, 0.1, 0.0))
+    assert bench.order()
+
+
+def test_an_order_whose_end_the_vehicle_refuses_is_cancelled(bench):
+    bench.take(bench.follow(2), at=2)
+    bench.tell(driving=True)
+    bench.vehicle.command(Follow(9, 1, (WAY[1],), 2))
+    refuse(bench, bench.order())
+    assert not bench.instants()  # it still drives there
+    bench.vehicle.command(Follow(9, 1, (WAY[1],), 2))
+    order = bench.order(wait=1.0)
+    bench.tell(driving=False)
+    refuse(bench, order)
+    assert bench.events()[-1] == ("BLOCKED", "it refuses that its path ends where it stands")
+    assert [action.type for action in bench.instants()] == ["cancelOrder"]
 
 
 @pytest.mark.parametrize("is_loaded", [False, True])

@@ -24,6 +24,7 @@ class Watch(Protocol):
     """What is known of a warehouse beside its robots."""
 
     collisions: int
+    fleet: Any  # FleetState
     objects: Any  # WarehouseObjects
     reasons: dict[str, str]  # why robots are broken, in their own words, by model
 
@@ -86,6 +87,7 @@ def state_message(
     state.watchdog = traffic.watchdog.count
     state.alarms = [
         *_alarms(controller, watch.reasons, watch.refusals(traffic.time)),
+        *_lost(controller, watch.fleet),
         *waiting.for_people(),
         *_fallen(watch.objects),
         *in_the_way(controller.plan, traffic, transports.units),
@@ -121,10 +123,20 @@ def _alarms(
         name = f"kiva{kiva}"
         because = f": it refuses what it is sent ({refusals[name]})" if name in refusals else ""
         yield f"{name} does not move{because}"
+
+
+def _lost(controller: FleetController, fleet: Any) -> Iterable[str]:
+    robots = controller.robots
+    if not robots.lost.any():
+        return
+    places = dict(zip(fleet.kiva_id, zip(fleet.x, fleet.y)))
     for kiva in robots.kiva_ids[robots.lost].tolist():
-        yield (
-            f"kiva{kiva} was pushed and does not find back: put it straight, then set it AUTOMATIC"
-        )
+        x, y = places.get(kiva, (math.nan, math.nan))
+        if controller.plan.cell_of(x, y) == NOWHERE:
+            what = f"is off the floor, at {x:.1f}, {y:.1f} m: put it back"
+        else:
+            what = "was pushed and does not find back: put it straight"
+        yield f"kiva{kiva} {what}, then set it AUTOMATIC"
 
 
 def _fallen(objects: Any) -> Iterable[str]:

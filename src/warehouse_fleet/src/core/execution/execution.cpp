@@ -48,7 +48,10 @@ void Execution::update(double time, std::vector<Report> reports) {
       course.still_since = course.moved = now_;
       continue;
     }
-    if (course.isMember() && !reports_[robot].is_controlled && isOver(robot)) dismiss(robot);
+    if (course.isMember() && !reports_[robot].is_controlled) {
+      course.recovery = {};  // as a member it begins afresh, even if this path is not over
+      if (isOver(robot)) dismiss(robot);
+    }
     if (!course.isMember()) continue;
     follow(robot);
     if (course.isMember()) keepAround(robot);

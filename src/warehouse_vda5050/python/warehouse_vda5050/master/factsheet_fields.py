@@ -19,12 +19,13 @@ FIELDS = (
     ),
     (
         "protocolLimits.maxStringLens.idLen, idNumericalOnly, enumLen, loadIdLen",
-        "an order with a longer string, or an id that is no number, is refused by its field;"
-        " 0 is no limit",
+        "an order or a zone set with a longer string, or an id that is no number, is refused by"
+        " its field; ids of instant actions are made so; 0 is no limit",
     ),
     (
         "protocolLimits.maxStringLens.msgLen",
-        "orders have as few nodes as it takes; the rest comes in updates",
+        "orders have as few nodes as it takes; the rest comes in updates; a longer zone set is"
+        " refused",
     ),
     (
         "protocolLimits.maxArrayLens.node.actions, actions.actionsParameters",

@@ -3,7 +3,8 @@
 
 from dataclasses import dataclass
 
-from warehouse_vda5050.model import Action, BlockingType, InstantActions, VehicleState
+from warehouse_vda5050.master.text_limits import fitting_id
+from warehouse_vda5050.model import Action, BlockingType, InstantActions, Lengths, VehicleState
 
 RESEND = 2.0  # [s] without an answer
 MOST_TIMES = 10
@@ -25,13 +26,14 @@ class InstantRequests:
 
     def __init__(self, run: str) -> None:
         self._run, self._count = run, 0
-        self.most = 0  # actions of a message that the vehicle takes; 0: any number
+        self.lengths = Lengths()  # that the vehicle takes
         self._pending: dict[str, _Pending] = {}
 
     def ask(self, kind: str, *parameters: tuple[str, str]) -> str:
         """Adds an action with parameters, and returns its id."""
         self._count += 1
-        action = Action(kind, f"{self._run}-i{self._count}", BlockingType.NONE, parameters)
+        name = fitting_id(self._run, self._count, self.lengths)
+        action = Action(kind, name, BlockingType.NONE, parameters)
         self._pending[action.id] = _Pending(action)
         return action.id
 
@@ -47,7 +49,7 @@ class InstantRequests:
         """Returns the actions to send."""
         pending = [request for request in self._pending.values() if not request.is_given_up]
         due = [request for request in pending if request.due <= now]
-        due = due[: self.most or None]  # the others go with the next message
+        due = due[: self.lengths.instant_actions or None]  # the others go with the next message
         for request in due:
             request.times, request.due = request.times + 1, now + RESEND
         return InstantActions(tuple(request.action for request in due)) if due else None

@@ -34,6 +34,7 @@ class Journey:
     end: int = 0  # sequenceId of the last node that it has
     update: int = -1  # the last orderUpdateId sent
     is_changed: bool = True  # since then
+    is_refused: bool = False  # the last order: the vehicle does not have the path as it is here
     sent: VehicleOrder | None = field(default=None, repr=False)
     actions: tuple[Action, ...] = ()  # at the last point
     lift: Lift | None = None  # that it is made for
@@ -51,16 +52,19 @@ class Journey:
             )
         points, speeds = self.points, self.speeds
         if command.points:
-            if not self.released <= command.first <= len(self.points):
+            points = [*points[: command.first], *command.points]
+            speeds = speeds_after(self, command)
+            base = self.released  # which may be sent once more, as of a path that is cut off
+            is_other = points[:base] != self.points[:base] or speeds[:base] != self.speeds[:base]
+            if is_other or command.first > len(self.points):
                 raise RefusedError(
                     f"points from number {command.first} on can't be replaced:"
                     f" {self.released} of {len(self.points)} are released"
                 )
-            points = [*self.points[: command.first], *command.points]
-            speeds = speeds_after(self, command)
         if command.released > len(points):
             raise RefusedError(f"{command.released} of {len(points)} points can't be released")
-        if (points, speeds, command.released) == (self.points, self.speeds, self.released):
+        is_same = (points, speeds, command.released) == (self.points, self.speeds, self.released)
+        if is_same and not self.is_refused:
             return
         self.points, self.speeds = points, speeds
         self.released, self.is_changed = command.released, True
@@ -105,7 +109,7 @@ class Journey:
     def refuse(self) -> None:
         """Goes back to what the vehicle has: it refused the last order. The number is not used
         again, since states may still mention it."""
-        self.sent, self.is_changed = None, False
+        self.sent, self.is_changed, self.is_refused = None, False, True
         self.released = self.had
 
     def next_order(self, place: PlaceNode) -> VehicleOrder | None:
@@ -119,7 +123,7 @@ class Journey:
         nodes = tuple(self._node(i, place) for i in range(first, last))
         edges = tuple(self._edge(i, place) for i in range(first, last - 1))
         self.sent = VehicleOrder(self.order_id, self.update, nodes, edges)
-        self.is_changed = False
+        self.is_changed = self.is_refused = False
         return self.sent
 
     def _node(self, i: int, place: PlaceNode) -> Node:

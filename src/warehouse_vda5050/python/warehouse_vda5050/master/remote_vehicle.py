@@ -30,7 +30,13 @@ from warehouse_vda5050.master.load_fit import Measure, unknown
 from warehouse_vda5050.master.robots_file import RemoteRobot
 from warehouse_vda5050.master.text_limits import too_long
 from warehouse_vda5050.master.vehicle_view import VehicleView
-from warehouse_vda5050.master.whereabouts import jumped, left_way, missed, square
+from warehouse_vda5050.master.whereabouts import (
+    is_elsewhere,
+    jumped,
+    left_way,
+    missed,
+    square,
+)
 from warehouse_vda5050.model import (
     ActionStatus,
     ConnectionState,
@@ -116,6 +122,7 @@ class RemoteVehicle:
         self._cancel_id = ""
         self._sent_at, self._times = 0.0, 0
         self._refusals, self._not_before = 0, 0.0  # in a row, and until when nothing is ordered
+        self._refused_at = self.view.pose  # where it refused the last
         self._fatal: frozenset[str] = frozenset()  # of its last state
         self._events: list[Happened] = []
         self._unread_sheet = ""  # why: of a factsheet that could not be read
@@ -156,6 +163,9 @@ class RemoteVehicle:
         self._instants.take(state)
         self._take_load(state)
         self._take_errors()
+        is_idle = not state.nodes and not state.driving
+        if is_idle and is_elsewhere(self._refused_at, self.view.pose):
+            self._refusals, self._not_before = 0, 0.0  # what it refused there it may take here
         if self._phase is Phase.CLEARING and self._is_cancelled(state):
             self._go_to(Phase.IDLE)
         if self._journey:
@@ -175,7 +185,7 @@ class RemoteVehicle:
             )
         self.abilities.sheet, self._unread_sheet = sheet, ""
         self.view.speedometer.fastest = self.abilities.top_speed
-        self._instants.most = sheet.lengths.instant_actions
+        self._instants.lengths = sheet.lengths
         if self._journey:
             self._journey.max_nodes = self.abilities.max_nodes or sheet.max_nodes
         misfit = too_large(sheet, self._grid.spacing)
@@ -499,12 +509,16 @@ class RemoteVehicle:
             if references.get("orderId") == way.order_id and update == str(way.update):
                 self._back_off(now)
                 self._give_up(way, f"{error.type}: {error.description}")
+                if self.waits and way.released == len(way.points):
+                    self._end(EventKind.BLOCKED, "it refuses that its path ends where it stands")
+                    self._clear()
                 return
 
     def _back_off(self, now: float) -> None:
         """Waits longer each time that an order is refused in a row."""
         wait = min(BACK_OFF[0] * 2**self._refusals, BACK_OFF[1])
         self._refusals, self._not_before = self._refusals + 1, now + wait
+        self._refused_at = self.view.pose
 
     # --- what befalls it
 

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether an order keeps to the lengths of strings and arrays of a vehicle's factsheet."""
+"""Whether messages keep to the lengths of strings and arrays of a vehicle's factsheet."""
 
+import zlib
 from collections.abc import Iterable, Iterator
 
-from warehouse_vda5050.model import Action, Lengths, VehicleOrder
+from warehouse_vda5050.model import Action, Lengths, VehicleOrder, ZoneSet
 
 MESSAGE_HEAD = 400  # bytes of an order without nodes, with its header
 NODE_SHARE = 700  # bytes of a node and the edge to it, at most, without actions
 ACTION_SHARE = 1000  # bytes of the actions of an order
+ZONE_SHARE = 400  # bytes of a zone of four corners, at most
 
 
 def nodes_within(lengths: Lengths) -> int | None:
@@ -20,6 +22,24 @@ def nodes_within(lengths: Lengths) -> int | None:
 def too_long(order: VehicleOrder, lengths: Lengths) -> str:
     """Returns in a sentence what of an order the vehicle can't take, '' if it can take it all."""
     return next(_faults(order, lengths), "")
+
+
+def fitting_id(run: str, count: int, lengths: Lengths) -> str:
+    """Returns the id of an instant action, which no vehicle may be spared: of digits or shorter
+    than it is for others, as the vehicle asks. The last part tells those of one run apart."""
+    if lengths.is_numeric:
+        return f"{zlib.crc32(run.encode())}{count:05}"[-(lengths.id or 15) :]
+    return f"{run}-i{count}"[-lengths.id :]
+
+
+def zones_too_long(zones: ZoneSet, lengths: Lengths) -> str:
+    """Returns in a sentence what of a zone set the vehicle can't take, '' if it can take it all."""
+    ids = [("zoneSetId", zones.id), ("mapId", zones.map_id)]
+    ids += [("zoneId", zone.id) for zone in zones.zones]
+    size = MESSAGE_HEAD + ZONE_SHARE * len(zones.zones)
+    if 0 < lengths.message < size:
+        return f"{len(zones.zones)} zones need {size} bytes, and its most are {lengths.message}"
+    return next(_of_ids(ids, lengths), "")
 
 
 def _faults(order: VehicleOrder, lengths: Lengths) -> Iterator[str]:

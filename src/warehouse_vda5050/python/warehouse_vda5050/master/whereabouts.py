@@ -25,6 +25,12 @@ def jumped(before: Pose, now: Pose, seconds: float, fastest: float = FASTEST) ->
     )
 
 
+def is_elsewhere(before: Pose, now: Pose) -> bool:
+    """Returns whether a vehicle that stands was put straight, or anywhere else."""
+    turn = abs(math.remainder(now[2] - before[2], math.tau))
+    return math.dist(before[:2], now[:2]) > NEAR or turn > SQUARE
+
+
 def left_way(pose: Pose, points: Sequence[Point], within: float) -> str:
     """Returns the text of a vehicle's distance from its path; '' up to `within` [m]."""
     off = distance(pose, points)

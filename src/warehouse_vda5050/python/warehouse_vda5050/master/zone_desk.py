@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 from warehouse_vda5050.master.instant import RESEND, InstantRequests
 from warehouse_vda5050.master.robots_file import RemoteRobot
+from warehouse_vda5050.master.text_limits import zones_too_long
 from warehouse_vda5050.master.vehicle_view import VehicleView
 from warehouse_vda5050.model import Factsheet, InstantActions, Responses, VehicleState, ZoneSet
 from warehouse_vda5050.zones.zone import Grant, RequestStatus, Response, Zone, ZoneType
@@ -59,7 +60,7 @@ class ZoneDesk:
     def take_factsheet(self, sheet: Factsheet) -> None:
         """Adapts the zones to those that the vehicle keeps to."""
         self._sheet = sheet
-        self._instants.most = sheet.lengths.instant_actions
+        self._instants.lengths = sheet.lengths
 
     def close(self, areas: Iterable[ClosedArea]) -> None:
         """Takes the closed zones of the floor as they are now."""
@@ -109,6 +110,9 @@ class ZoneDesk:
         self._set = ZoneSet(f"{self._name}-{self._count}", self._view.map_id, zones)
         if 0 < self._sheet.max_zones < len(zones):
             self._refusal = f"{len(zones)} are closed, and {self._sheet.max_zones} are its most"
+        else:
+            self._refusal = zones_too_long(self._set, self._sheet.lengths)
+        if self._refusal:
             self._news.append(f"its zones are not sent: {self._refusal}")
 
     def _zones(self) -> Iterable[Zone]:

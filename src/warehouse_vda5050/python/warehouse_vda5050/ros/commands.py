@@ -1,11 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The topics by which robots are commanded, as plain commands; of some robots alone."""
+"""The topics by which robots are commanded, as plain commands; of some robots alone.
+
+A client that waits for a connection before it commands has to have that to the world, which drives
+all other robots: what the world publishes on /warehouse/commands is heard from there. This node is
+itself the receiver of its robots' paths, which the world does not publish again, and of stop and
+cancel, which have to reach a vehicle even where no world runs any more.
+"""
 
 from collections.abc import Callable, Collection, Iterator
-from typing import Any
 
 import rospy
 
+from warehouse_client.heard_commands import Heard, hear
 from warehouse_client.message_check import subscribe
 from warehouse_msgs.msg import (
     Cancel,
@@ -14,9 +20,6 @@ from warehouse_msgs.msg import (
     FollowPath,
     Lift,
     LimitedPath,
-    MoveAlong,
-    MoveTo,
-    Rotate,
     Stop,
 )
 from warehouse_vda5050.master import commands
@@ -24,6 +27,12 @@ from warehouse_vda5050.master.commands import Command
 from warehouse_vda5050.master.fleet import ALL
 
 QUEUE = 1000
+OTHERS = {  # that no vehicle takes
+    "mov": "way of its own to a point",
+    "movx": "distance along x",
+    "movy": "distance along y",
+    "rot": "turn",
+}
 
 
 class CommandTopics:
@@ -44,18 +53,12 @@ class CommandTopics:
             ("follow_limited", LimitedPath, self._on_limited),
             ("warehouse/follow", FleetFollow, self._on_fleet_follow),
             ("warehouse/fleet_orders", FleetOrders, self._on_orders),
-            ("lift", Lift, self._on_lift),
             ("cancel", Cancel, self._on_cancel),
             ("stop", Stop, self._on_stop),
         ):
             subscribe(rospy, topic, kind, take, queue_size=QUEUE, tcp_nodelay=True)
-        for topic, other, what in (
-            ("mov", MoveTo, "way of its own to a point"),
-            ("movx", MoveAlong, "distance along x"),
-            ("movy", MoveAlong, "distance along y"),
-            ("rot", Rotate, "turn"),
-        ):
-            subscribe(rospy, topic, other, self._on_other, what, queue_size=QUEUE)
+        self._heard = {rospy.resolve_name(topic): topic for topic in ("lift", *OTHERS)}
+        hear(rospy, self._on_heard)
 
     def _send(self, kiva_id: int, command: Command) -> None:
         if kiva_id in self._numbers:
@@ -98,8 +101,19 @@ class CommandTopics:
         else:
             self._send(message.kiva_id, commands.Stop(message.stop))
 
-    def _on_other(self, message: Any, what: str) -> None:
-        self._send(message.kiva_id, commands.Other(what))
+    def _on_heard(self, heard: Heard) -> None:
+        topic, fields = self._heard.get(heard.topic, ""), heard.fields
+        if not topic:
+            return
+        try:
+            names = ("kiva_id", "status", "shelf_id") if topic == "lift" else ("kiva_id",)
+            values = {name: int(fields[name]) for name in names}
+        except (KeyError, TypeError, ValueError):
+            return  # the world refuses it
+        if topic == "lift":
+            self._on_lift(Lift(**values))
+        else:
+            self._send(values["kiva_id"], commands.Other(OTHERS[topic]))
 
 
 def paths_of(message: FleetFollow) -> Iterator[tuple[int, commands.Follow]]:

@@ -13,6 +13,7 @@ from fastapi.encoders import jsonable_encoder
 from fastapi.exceptions import RequestValidationError
 from starlette.routing import Match
 
+from warehouse_client.heard_commands import hear, hear_calls
 from warehouse_msgs.msg import Event, TransportEvent
 from warehouse_viewer.api import catalogue, description, routes, zones_json
 from warehouse_viewer.api.backend import ApiBackend
@@ -35,7 +36,7 @@ from warehouse_viewer.ros.commander import Commander
 from warehouse_viewer.ros.coordination import Coordination
 from warehouse_viewer.ros.emergency_stop import EmergencyStop
 from warehouse_viewer.ros.feed import Feed
-from warehouse_viewer.ros.heard_commands import CommandNotes, hear, hear_calls
+from warehouse_viewer.ros.heard_commands import CommandNotes
 from warehouse_viewer.ros.operations_client import OperationsClient
 from warehouse_viewer.ros.shift_feed import ShiftFeed
 from warehouse_viewer.ros.simulation import Simulation

@@ -90,6 +90,7 @@ def coordinator(fleet: WorldFleet, objects: SimpleNamespace) -> dict[str, Any]:
     watch = SimpleNamespace(
         by_hand=(),
         collisions=fleet.collisions,
+        fleet=fleet.world.fleet,
         objects=objects,
         reasons={},
         refusals=lambda _now: {},

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from warehouse_msgs.msg import Stop
 
 if TYPE_CHECKING:
+    from warehouse_client.heard_commands import Heard
     from warehouse_msgs.msg import FleetState
-    from warehouse_viewer.ros.heard_commands import Heard
 
 SETTLES = 40.0  # for which robots may stand yet after a stop [s], simulated
 ALL = 0  # the number that stands for every robot in a Stop

@@ -31,7 +31,7 @@ BROKEN = "ROBOT_BROKEN"
 SENTENCES = (
     (re.compile(r"(kiva\d+): "), BROKEN),
     (re.compile(r"(kiva\d+) does not move(?:: |$)"), "ROBOT_STALLED"),
-    (re.compile(r"(kiva\d+) was pushed "), "ROBOT_LOST"),
+    (re.compile(r"(kiva\d+) (?:was pushed|is off the floor)"), "ROBOT_LOST"),
     (re.compile(r"(.+) has waited for a person for "), "STATION_UNATTENDED"),
     (re.compile(r"(.+) lies on the floor, off "), "ITEM_FALLEN"),
     (re.compile(r"(.+) stands (?:in a street|across cells|in the way) at "), "OBSTACLE"),

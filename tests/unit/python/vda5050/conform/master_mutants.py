@@ -8,7 +8,7 @@ import contextlib
 from dataclasses import dataclass, field, replace
 from unittest import mock
 
-from damage import of_json
+from damage import Additions
 from paper_master import runner_for
 
 from warehouse_vda5050.conform.master.cases import cases_of
@@ -42,6 +42,8 @@ class Mutant:
 
 
 MUTANTS: dict[str, Mutant] = {}
+additions = Additions(MUTANTS, Mutant, "/order")
+patched, message, json_of = additions.patched, additions.message, additions.json_of
 
 
 def found_by(mutant, version="2.1.0", chapters=()):
@@ -61,35 +63,6 @@ def found_by(mutant, version="2.1.0", chapters=()):
         retained = next(c for c in cases if c.id == "messages.retained")
         result = runner.try_case(retained)
         return (retained.id, result.reason) if result.verdict is Verdict.DIFFERS else None
-
-
-def patched(name, rule, *patches):
-    """Adds a mutant of the code."""
-    MUTANTS[name] = Mutant(name, rule, patches=list(patches))
-
-
-def message(name, rule, kind=""):
-    """Returns a decorator that adds a mutant which damages messages of a kind."""
-
-    def add(function):
-        def damage(sent, memory):
-            return function(sent, memory) if sent.topic.endswith(kind) else sent
-
-        MUTANTS[name] = Mutant(name, rule, damage)
-        return function
-
-    return add
-
-
-def json_of(name, rule, kind="/order"):
-    """Returns a decorator that adds a mutant which damages the JSON of messages: function(value,
-    memory) changes `value`, and returns False for a message that is lost."""
-
-    def add(function):
-        MUTANTS[name] = Mutant(name, rule, of_json(function, kind))
-        return function
-
-    return add
 
 
 # --- how messages are sent

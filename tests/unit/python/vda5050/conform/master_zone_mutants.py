@@ -4,7 +4,7 @@ way, or our master's code with one thing wrong."""
 
 from dataclasses import replace
 
-from damage import of_json
+from damage import Additions
 from master_mutants import Mutant
 
 from warehouse_vda5050.master import zone_desk
@@ -15,23 +15,9 @@ from warehouse_vda5050.mqtt.master_link import MasterLink
 from warehouse_vda5050.zones.zone import Grant, Response
 
 MUTANTS: dict[str, Mutant] = {}
+additions = Additions(MUTANTS, Mutant, "/zoneSet")
+patched, json_of = additions.patched, additions.json_of
 CHAPTERS = ("zones", "paths")
-
-
-def patched(name, rule, *patches):
-    """Adds a mutant of the code."""
-    MUTANTS[name] = Mutant(name, rule, patches=list(patches))
-
-
-def json_of(name, rule, kind="/zoneSet"):
-    """Returns a decorator that adds a mutant which damages the JSON of messages: function(value,
-    memory) changes `value`, and returns False for a message that is lost."""
-
-    def add(function):
-        MUTANTS[name] = Mutant(name, rule, of_json(function, kind))
-        return function
-
-    return add
 
 
 def zones_of(value):

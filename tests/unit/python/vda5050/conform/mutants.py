@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass, field, replace
 from unittest import mock
 
-from damage import of_json
+from damage import Additions
 from paper_vehicle import PaperWire, runner_for
 
 from warehouse_vda5050.conform.cases import cases_of
@@ -60,6 +60,8 @@ class Mutant:
 
 
 MUTANTS: dict[str, Mutant] = {}
+additions = Additions(MUTANTS, Mutant)
+patched, message, json_of = additions.patched, additions.message, additions.json_of
 
 
 def found_by(mutant, cases=None, version="2.1.0"):
@@ -73,38 +75,6 @@ def found_by(mutant, cases=None, version="2.1.0"):
             if result.verdict is Verdict.DIFFERS:
                 return result.case.id, result.reason
     return None
-
-
-def patched(name, rule, *patches):
-    """Adds a mutant of the code."""
-    MUTANTS[name] = Mutant(name, rule, patches=list(patches))
-
-
-def message(name, rule, kind=None):
-    """Returns a decorator that adds a mutant which damages messages of a kind."""
-
-    def add(function):
-        def damage(sent, memory):
-            if kind and not sent.topic.endswith(f"/{kind.value}"):
-                return sent
-            return function(sent, memory)
-
-        MUTANTS[name] = Mutant(name, rule, damage)
-        return function
-
-    return add
-
-
-def json_of(name, rule, *kinds):
-    """Returns a decorator that adds a mutant which damages the JSON of messages: function(value,
-    memory) changes `value`, and returns False for a message that is lost."""
-
-    def add(function):
-        endings = (f"/{kind.value}" for kind in kinds)
-        MUTANTS[name] = Mutant(name, rule, of_json(function, *endings))
-        return function
-
-    return add
 
 
 def state(name, rule):

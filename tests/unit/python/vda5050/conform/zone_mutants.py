@@ -4,6 +4,7 @@
 import math
 from dataclasses import replace
 
+from damage import Additions
 from mutants import Mutant
 
 from warehouse_vda5050.validation import MessageError
@@ -16,10 +17,7 @@ from warehouse_vda5050.zones.store import ZoneStore
 from warehouse_vda5050.zones.zone import Grant, ZoneType
 
 MUTANTS: dict[str, Mutant] = {}
-
-
-def patched(name, rule, *patches):
-    MUTANTS[name] = Mutant(name, rule, patches=list(patches))
+patched = Additions(MUTANTS, Mutant).patched
 
 
 def _enabled_at_once(self, zones, former=ZoneStore.add):

@@ -2,14 +2,17 @@
 """The master keeps to the lengths of strings and arrays of a vehicle's factsheet."""
 
 import json
+import re
 
 import pytest
 from test_abilities import bench_of
 
 from warehouse_vda5050.codec import codec_for
-from warehouse_vda5050.master.commands import Follow, Lift
-from warehouse_vda5050.model import Factsheet, Lengths, VehicleOrder
+from warehouse_vda5050.master.commands import Follow, Lift, Stop
+from warehouse_vda5050.master.text_limits import zones_too_long
+from warehouse_vda5050.model import Factsheet, InstantActions, Lengths, VehicleOrder, ZoneSet
 from warehouse_vda5050.topics import Kind
+from warehouse_vda5050.zones.zone import Zone, ZoneType
 
 
 def drive(bench, count=4):
@@ -75,6 +78,43 @@ def test_instant_actions_beyond_the_most_of_a_message_come_in_the_next():
     messages = [instants.due(1000.0) for _ in range(3)]
     types = [[action.type for action in message.actions] for message in messages if message]
     assert types[-2:] == [["stateRequest"], ["startPause"]]
+
+
+@pytest.mark.parametrize(
+    ("lengths", "pattern"),
+    [
+        (Lengths(), r"run-21-i\d"),
+        (Lengths(id=6), r"n?-?21-i\d"),
+        (Lengths(is_numeric=True), r"\d{15}"),
+        (Lengths(id=8, is_numeric=True), r"\d{8}"),
+    ],
+)
+def test_ids_of_instant_actions_are_as_short_as_the_vehicle_asks(lengths, pattern):
+    bench = bench_of(Factsheet(lengths=lengths))
+    sent(bench, InstantActions)
+    bench.vehicle.command(Stop(True))
+    (message,) = sent(bench, InstantActions)
+    ids = [action.id for action in message.actions if action.type == "startPause"]
+    assert re.fullmatch(pattern, ids[0]) and len(ids) == 1
+    bench.vehicle.command(Stop(False))
+    assert [action.id for action in sent(bench, InstantActions)[0].actions] != ids
+
+
+@pytest.mark.parametrize(
+    ("lengths", "text"),
+    [
+        (Lengths(id=8), "zoneSetId 'warehouse-run-1-1' has 17 characters, and idLen of its"),
+        (Lengths(message=500), "1 zones need 800 bytes, and its most are 500"),
+        (Lengths(is_numeric=True), "zoneSetId 'warehouse-run-1-1' is no number"),
+        (Lengths(message=900, id=20), ""),
+    ],
+)
+def test_a_zone_set_that_a_vehicle_can_not_take_is_refused_by_its_field(lengths, text):
+    corners = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
+    zones = ZoneSet("warehouse-run-1-1", "hall", (Zone("closed1", ZoneType.BLOCKED, corners),))
+    assert zones_too_long(zones, lengths).startswith(text)
+    assert bool(zones_too_long(zones, lengths)) == bool(text)
+    assert len(codec_for("3.0.0").encode(zones)) <= 800
 
 
 @pytest.mark.parametrize("version", ["2.1.0", "3.0.0"])

@@ -4,8 +4,8 @@
 import rospy
 from fake_ros import FakeRos, fleet_state
 
+from warehouse_client.heard_commands import Heard
 from warehouse_viewer.ros.emergency_stop import HELD, EmergencyStop
-from warehouse_viewer.ros.heard_commands import Heard
 from warehouse_viewer.watch import troubles
 from warehouse_viewer.watch.alarm_book import Trouble
 

@@ -6,9 +6,10 @@ import json
 import pytest
 from fake_ros import FakeRos
 
+from warehouse_client.heard_commands import hear, hear_calls
 from warehouse_msgs.msg import Command
 from warehouse_viewer.api.command_log import CommandLog
-from warehouse_viewer.ros.heard_commands import CommandNotes, hear, hear_calls
+from warehouse_viewer.ros.heard_commands import CommandNotes
 
 STOP = "kiva_id: 1\nstop: 1\n"
 

@@ -79,6 +79,7 @@ def test_every_kind_says_what_to_do():
             "ROBOT_STALLED",
             "kiva7",
         ),
+        ("kiva7 is off the floor, at -37.0, -4.0 m: put it back", "ROBOT_LOST", "kiva7"),
         ("kiva7 was pushed and does not find back: put it straight", "ROBOT_LOST", "kiva7"),
         ("pick1 has waited for a person for 40 s", "STATION_UNATTENDED", "pick1"),
         ("item4 lies on the floor, off storage_unit1", "ITEM_FALLEN", "item4"),

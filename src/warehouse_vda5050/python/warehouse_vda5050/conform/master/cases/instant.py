@@ -2,7 +2,7 @@
 """Instant actions (6.9), cancelOrder among them (6.6.3)."""
 
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import Any
 
 from warehouse_vda5050.conform import view
 from warehouse_vda5050.conform.case import Chapter
@@ -10,6 +10,7 @@ from warehouse_vda5050.conform.log import Entry
 from warehouse_vda5050.conform.master.cases.actions import instant_actions
 from warehouse_vda5050.conform.master.facts import held_for, value_of
 from warehouse_vda5050.conform.master.orders import orders_of
+from warehouse_vda5050.conform.master.row import Row
 from warehouse_vda5050.conform.master.stage import Stage
 from warehouse_vda5050.conform.verdict import Untestable, demand
 from warehouse_vda5050.topics import Kind
@@ -20,27 +21,21 @@ Json = dict[str, Any]
 MOST, WINDOW = 20, 10.0  # instant actions to one vehicle, and in which time [s]
 
 
-class Asked(NamedTuple):
+class Asked(Row):
     """An instant action as it was sent."""
 
-    entry: Entry
-    action: Json
-
-    @property
-    def key(self) -> tuple[str, str]:
-        """The vehicle and the actionId."""
-        return self.entry.vehicle, str(self.action.get("actionId"))
+    id_field = "actionId"
 
     @property
     def name(self) -> str:
         """The vehicle and the action, for people."""
-        return f"{self.entry.vehicle}: {self.action.get('actionType')} {self.key[1]}"
+        return f"{self.entry.vehicle}: {self.row.get('actionType')} {self.key[1]}"
 
 
 def _asked(stage: Stage, *types: str) -> list[Asked]:
     """Returns instant actions, of some types. Raises Untestable without any."""
     rows = [*_all(stage)]
-    rows = [row for row in rows if not types or row.action.get("actionType") in types]
+    rows = [row for row in rows if not types or row.row.get("actionType") in types]
     if not rows:
         raise Untestable(f"the master sent no {' or '.join(types) or 'instant actions'}")
     return rows
@@ -56,8 +51,8 @@ def copies(stage: Stage) -> None:
     """An instant action that is sent again is the same action."""
     known: dict[tuple[str, str], Json] = {}
     for asked in _asked(stage):
-        before = known.setdefault(asked.key, asked.action)
-        demand(before == asked.action, f"{asked.name} was another before")
+        before = known.setdefault(asked.key, asked.row)
+        demand(before == asked.row, f"{asked.name} was another before")
 
 
 @case("repeats", "6.9", audit=True)
@@ -104,7 +99,7 @@ def unanswered(stage: Stage) -> None:
     rows = [r for r in _all(stage) if r.entry in stage.received(Kind.INSTANT_ACTIONS, mark, actor)]
     if not rows:
         raise Untestable("the master sent no instant actions to a vehicle that came back")
-    kinds = [row.action.get("actionType") for row in {row.key: row for row in rows}.values()]
+    kinds = [row.row.get("actionType") for row in {row.key: row for row in rows}.values()]
     most = max(kinds.count(kind) for kind in kinds)
     demand(most <= 3, f"{most} of one type within {stage.settings.watch:.0f} s, with new actionIds")
 
@@ -138,7 +133,7 @@ def pause_ends(stage: Stage) -> None:
         last[asked.entry.vehicle] = asked
     end = stage.now()
     for asked in last.values():
-        held = asked.action.get("actionType") == "startPause" and asked.entry.time < end - 60.0
+        held = asked.row.get("actionType") == "startPause" and asked.entry.time < end - 60.0
         demand(not held, f"{asked.name} was the last of them")
 
 

@@ -17,6 +17,7 @@ from warehouse_vda5050.conform.master.actor import Actor
 from warehouse_vda5050.conform.master.cases.actions import instant_actions
 from warehouse_vda5050.conform.master.facts import held_for, value_of
 from warehouse_vda5050.conform.master.orders import Ordered, orders_of
+from warehouse_vda5050.conform.master.row import Row
 from warehouse_vda5050.conform.master.stage import Stage
 from warehouse_vda5050.conform.verdict import Untestable, demand
 from warehouse_vda5050.model import OperatingMode
@@ -61,16 +62,10 @@ class Sent(NamedTuple):
         return view.rows(self.content, "zones")
 
 
-class Answer(NamedTuple):
+class Answer(Row):
     """A response as it was sent."""
 
-    entry: Entry
-    row: Json
-
-    @property
-    def key(self) -> tuple[str, str]:
-        """The vehicle and the requestId."""
-        return self.entry.vehicle, str(self.row.get("requestId"))
+    id_field = "requestId"
 
     @property
     def grant(self) -> str:
