@@ -108,7 +108,15 @@ def helped(command: list[str]) -> str:
     argv = command[1:] if as_module else command
     arguments = mock.patch.object(sys, "argv", [*argv, "--help"])
     run = runpy.run_module if as_module else runpy.run_path
-    with environment, arguments, contextlib.redirect_stdout(out), contextlib.suppress(SystemExit):
+    beside = [] if as_module else [str(Path(argv[0]).parent)]  # as if it was started itself
+    paths = mock.patch.object(sys, "path", [*beside, *sys.path])
+    with (
+        environment,
+        arguments,
+        paths,
+        contextlib.redirect_stdout(out),
+        contextlib.suppress(SystemExit),
+    ):
         run(argv[0], run_name="__main__")
     for subcommand, handler in handlers.items():
         signal.signal(subcommand, handler)

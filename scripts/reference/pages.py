@@ -12,6 +12,9 @@ ROOT = Path(__file__).resolve().parents[2]
 MIRRORED = {
     "SECURITY.md": "explanation/security.md",
     "CONTRIBUTING.md": "explanation/contributing.md",
+    "src/kiva_plugin_cpp/src/README.md": "explanation/rooms-world.md",
+    "src/warehouse_fleet/src/README.md": "explanation/rooms-planner.md",
+    "src/warehouse_viewer/web/js/README.md": "explanation/rooms-pages.md",
     "bench/README.md": "explanation/benchmarks.md",
     "CHANGELOG.rst": "reference/changelog.rst",
 }

@@ -15,8 +15,8 @@ namespace kiva {
 /// path of a mesh; the first match wins.
 using ModelPaths = std::vector<std::string>;
 
-/// Returns the folders of models that ROS packages export to Gazebo by `<gazebo_ros
-/// gazebo_model_path=…/>` in their package.xml. Searches all packages below the folders of `a:b`,
+/// Returns the folders of models that ROS packages export to Gazebo: `gazebo_model_path` of the
+/// element `<gazebo_ros>` in their package.xml. Searches all packages below the folders of `a:b`,
 /// the format of ROS_PACKAGE_PATH.
 ModelPaths exportedModelPaths(const std::string& ros_package_path);
 
