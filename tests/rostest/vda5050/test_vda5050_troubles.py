@@ -205,6 +205,8 @@ class Troubles(BrokerCase):
         self.vehicle.do(self.stand, x, y, 0.0)
         set_modes(AUTOMATIC, NUMBER)
         self.until_no_alarm(f"kiva{NUMBER} {LOST}")
+        stored = lambda event: (event.kind, event.shelf_id) == (TransportEvent.STORED, UNIT)  # noqa: E731
+        self.transports.first(stored, PATIENCE)
         self.assertEqual(self.contacts(), [])
 
     def stand(self, x, y, yaw):
