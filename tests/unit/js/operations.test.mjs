@@ -91,7 +91,8 @@ test('an order is late past its due time, until it is complete, and for ever if 
   assert.deepEqual(lateness({ due: 900, completed: 0, state: 'OPEN' }, 300), { isLate: false, text: 'in 10 min' });
   assert.deepEqual(lateness({ due: 900, completed: 0, state: 'ASSIGNED' }, 1500), { isLate: true, text: '10 min late' });
   assert.deepEqual(lateness({ due: 900, completed: 800, state: 'COMPLETED' }, 1500), { isLate: false, text: 'in time' });
-  assert.deepEqual(lateness({ due: 900, completed: 960, state: 'COMPLETED' }, 1500), { isLate: true, text: '1 min late' });
+  assert.deepEqual(lateness({ due: 900, completed: 960, state: 'COMPLETED' }, 1500), { isLate: true, text: '60 s late' });
+  assert.equal(lateness({ due: 8000, completed: 0, state: 'OPEN' }, 860).text, 'in 1 h 59 min');
   assert.equal(lateness({ due: 900, completed: 0, state: 'CANCELLED' }, 1500).isLate, false);
 });
 

@@ -3,6 +3,7 @@
 
 import { make } from '../base/dom.js';
 import { OrderState } from '../base/message_enums.js';
+import { lasting } from '../base/time.js';
 import { tr } from '../language/texts.js';
 import { ORDER_STATES } from '../base/words.js';
 
@@ -51,7 +52,7 @@ export function piecesOf({ lines }) {
 export function lateness({ due, completed, state }, now) {
   if (!due || state === OrderState.CANCELLED) return { isLate: false, text: '' };
   const left = due - (completed || now);
-  const minutes = tr`${Math.max(1, Math.round(Math.abs(left) / 60))} min`;
-  if (left < 0) return { isLate: true, text: tr`${minutes} late` };
-  return { isLate: false, text: completed ? tr`in time` : tr`in ${minutes}` };
+  const span = lasting(Math.abs(left));
+  if (left < 0) return { isLate: true, text: tr`${span} late` };
+  return { isLate: false, text: completed ? tr`in time` : tr`in ${span}` };
 }
