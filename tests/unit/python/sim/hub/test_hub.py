@@ -217,8 +217,9 @@ def test_what_roslaunch_leaves_is_swept(tmp_path):
         subprocess.Popen(["sleep", "100"], env={MARK: str(at)}, start_new_session=True)
         for at in (folder, folder, other)
     ]
+    # The system shows what a program was given a moment after it began.
+    until(lambda: len(marked(tmp_path)) == 3, "the marks of three programs")
     assert sorted(marked(folder)) == sorted(p.pid for p in programs[:2])
-    assert len(marked(tmp_path)) == 3
     sweep(folder)
     assert [p.wait() for p in programs[:2]] == [-signal.SIGKILL] * 2
     assert programs[2].poll() is None
