@@ -147,7 +147,9 @@ class ZoneDesk:
             if now >= self._due:
                 self._back_off(zones, now)
                 yield zones
-        elif not known[zones.id].enabled:
+            return
+        self._due, self._times = 0.0, 0  # it was answered: a vehicle that forgets it gets it at once
+        if not known[zones.id].enabled:
             self._ask("enableZoneSet", zones.id, now)
         else:
             for name in known:

@@ -199,6 +199,19 @@ def test_zones_that_are_refused_are_reported_once():
     assert event.text == "its zones are not sent: 2 are closed, and 1 are its most"
 
 
+def test_a_vehicle_that_forgets_its_zones_again_and_again_gets_them_soon_and_without_an_alarm():
+    sides = Sides()
+    sides.master.close_zones([closed(3, 0, 4, 2)])
+    for _ in range(8):
+        sides.until(holds(1))
+        store = sides.bench.vehicle.zones.store
+        store.enabled = None
+        store._sets.clear()
+        sides.step(2)
+        assert store.states(), "the set is there again within 2 s"
+    assert not sides.master.take_events()
+
+
 def test_a_set_that_is_never_answered_is_sent_less_and_less_and_one_alarm_says_so():
     sides = Sides()
     sides.bench.vehicle.on_zone_set = lambda _zones: None

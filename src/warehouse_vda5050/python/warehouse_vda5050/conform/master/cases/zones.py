@@ -35,7 +35,7 @@ DISABLED = 10.0  # for which the newest zone set may stay so [s]
 ANSWERED = 5.0  # within which a request is answered [s]
 STEP = 2.0  # between two states, the most that counts [s]
 MOST, WINDOW = 10, 10.0  # answers to one request, and in which time [s]
-FEW = 4  # zone sets to a vehicle that refuses each of them
+FEW = 2  # zone sets to a vehicle that refuses each of them
 DRIVEN = ("AUTOMATIC", "SEMIAUTOMATIC")  # modes in which a master is in control
 NO_ZONE = "conform-none"
 
