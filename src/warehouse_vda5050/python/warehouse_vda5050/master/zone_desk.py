@@ -148,7 +148,10 @@ class ZoneDesk:
                 self._back_off(zones, now)
                 yield zones
             return
-        self._due, self._times = 0.0, 0  # it was answered: a vehicle that forgets it gets it at once
+        self._due, self._times = (
+            0.0,
+            0,
+        )  # it was answered: a vehicle that forgets it gets it at once
         if not known[zones.id].enabled:
             self._ask("enableZoneSet", zones.id, now)
         else:
