@@ -148,10 +148,8 @@ class ZoneDesk:
                 self._back_off(zones, now)
                 yield zones
             return
-        self._due, self._times = (
-            0.0,
-            0,
-        )  # it was answered: a vehicle that forgets it gets it at once
+        # It was answered: a vehicle that forgets it gets it at once.
+        self._due, self._times = 0.0, 0
         if not known[zones.id].enabled:
             self._ask("enableZoneSet", zones.id, now)
         else:
