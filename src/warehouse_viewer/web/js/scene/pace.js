@@ -3,7 +3,7 @@
 // processor that draws leaves most of its time to the simulation.
 
 export const SHARE = 1 / 6; // of the time, in which pictures are drawn, at least
-export const MOST = 4 / 5; // the same where the simulation keeps its speed all the same
+export const MOST = 2 / 3; // the same where the simulation keeps its speed all the same
 export const CROWD = 2000; // robots from which SHARE is the limit, or the page would take a core
 export const HURRIED = 1 / 2; // the same while the camera is moved, at least
 const KEPT = 0.97; // of the speed that is wanted: it is kept
