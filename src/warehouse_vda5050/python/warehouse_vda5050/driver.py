@@ -70,12 +70,23 @@ class Driver(abc.ABC):
     """One robot. The simulated robot is the first implementation, SimulatedDriver."""
 
     @abc.abstractmethod
-    def follow(self, path_id: int, first: int, points: Sequence[Point], released: int) -> None:
+    def follow(
+        self,
+        path_id: int,
+        first: int,
+        points: Sequence[Point],
+        released: int,
+        speeds: Sequence[float] = (),
+    ) -> None:
         """Drives a path, or extends the one under way.
 
         A new `path_id` with `first` 0 begins where the robot stands, points[0]. The path_id of the
         path under way appends points[0 …] as points number `first` and on. `released` counts the
         points of the whole path that the robot may come to; it never shrinks.
+
+        speeds: the highest on the way to each point from the one before [m/s], inf for none: the
+        robot has slowed down where a way begins. Points of the path under way that come again
+        change their speeds alone; a robot that is too fast then brakes.
         """
 
     @abc.abstractmethod
@@ -100,21 +111,8 @@ class Driver(abc.ABC):
 
     # What follows has an answer of its own for robots that know none of it.
 
-    # Whether follow_limited() is implemented; otherwise orders with speed limits are refused.
+    # Whether follow() keeps to speeds; otherwise it gets none, and orders with them are refused.
     keeps_speeds = False
-
-    def follow_limited(
-        self,
-        path_id: int,
-        first: int,
-        points: Sequence[Point],
-        released: int,
-        speeds: Sequence[float],
-    ) -> None:
-        """Does as follow(), with a highest speed on the way to each point from the one before
-        [m/s], inf for none: the robot has slowed down where a way begins. Points of the path under
-        way that come again change their speeds alone; a robot that is too fast then brakes."""
-        raise NotImplementedError
 
     def take(self) -> str:
         """Takes the robot for an order, from whom commands it else. Returns why not, or ''."""

@@ -41,8 +41,15 @@ class FormulaRobot(Driver):
 
     # --- commands
 
-    def follow(self, path_id: int, first: int, points: Sequence[Point], released: int) -> None:
-        """Drives a path, or extends the one under way."""
+    def follow(
+        self,
+        path_id: int,
+        first: int,
+        points: Sequence[Point],
+        released: int,
+        speeds: Sequence[float] = (),
+    ) -> None:
+        """Drives a path, or extends the one under way; takes its speeds at once."""
         self._refusal = ""
         if path_id == self._path_id and self._busy:
             self._path[first:] = points
@@ -52,17 +59,6 @@ class FormulaRobot(Driver):
             self._path, self._path_id, self._reached = [*points], path_id, 1
             self._busy, self._cancelling = True, False
             self._speeds = {}
-
-    def follow_limited(
-        self,
-        path_id: int,
-        first: int,
-        points: Sequence[Point],
-        released: int,
-        speeds: Sequence[float],
-    ) -> None:
-        """Does the same with speed limits, at once at each point."""
-        self.follow(path_id, first, points, released)
         if not self._refusal:
             self._speeds.update(enumerate(speeds, first))
 

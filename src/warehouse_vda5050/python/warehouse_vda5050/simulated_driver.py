@@ -60,21 +60,15 @@ class World(Protocol):
     """Commands as the world takes them. set_mode() returns why not, or ''."""
 
     def follow(
-        self, kiva_id: int, path_id: int, first: int, points: Sequence[Point], released: int
-    ) -> None:
-        """Publishes on /warehouse/follow."""
-        ...
-
-    def follow_limited(
         self,
         kiva_id: int,
         path_id: int,
         first: int,
         points: Sequence[Point],
         released: int,
-        speeds: Sequence[float],
+        speeds: Sequence[float] = (),
     ) -> None:
-        """Publishes on /follow_limited."""
+        """Publishes on /warehouse/follow, and on /follow_limited with speeds."""
         ...
 
     def lift(self, kiva_id: int, shelf_id: int, up: bool) -> None:
@@ -123,22 +117,17 @@ class SimulatedDriver(Driver):
         self._stopped = False
         self._charged_enough = False  # it was commanded to stop, and still stands there
 
-    def follow(self, path_id: int, first: int, points: Sequence[Point], released: int) -> None:
-        """Sends a path, or more of it."""
-        self.refusal = ""
-        self._world.follow(self.kiva_id, path_id, first, points, released)
-
-    def follow_limited(
+    def follow(
         self,
         path_id: int,
         first: int,
         points: Sequence[Point],
         released: int,
-        speeds: Sequence[float],
+        speeds: Sequence[float] = (),
     ) -> None:
-        """Sends a path with speed limits, more of it, or other limits."""
+        """Sends a path, or more of it."""
         self.refusal = ""
-        self._world.follow_limited(self.kiva_id, path_id, first, points, released, speeds)
+        self._world.follow(self.kiva_id, path_id, first, points, released, speeds)
 
     def lift(self, unit: str, up: bool) -> None:
         """Sends a lift; a unit that is not a number refuses itself."""

@@ -169,26 +169,22 @@ class WorldLink:
     # --- to the world
 
     def follow(
-        self, kiva_id: int, path_id: int, first: int, points: Sequence[Point], released: int
-    ) -> None:
-        """Publishes on /warehouse/follow."""
-        x, y = zip(*points)
-        message = FleetFollow([kiva_id], [path_id], [first], [len(x)], x, y, [released])
-        self._publish("warehouse/follow", message)
-
-    def follow_limited(
         self,
         kiva_id: int,
         path_id: int,
         first: int,
         points: Sequence[Point],
         released: int,
-        speeds: Sequence[float],
+        speeds: Sequence[float] = (),
     ) -> None:
-        """Publishes on /follow_limited."""
+        """Publishes on /warehouse/follow, and on /follow_limited with speeds."""
         x, y = zip(*points)
-        path = FollowPath(kiva_id, path_id, first, x, y, released)
-        self._publish("follow_limited", LimitedPath(path, speeds))
+        if speeds:
+            path = FollowPath(kiva_id, path_id, first, x, y, released)
+            self._publish("follow_limited", LimitedPath(path, speeds))
+            return
+        message = FleetFollow([kiva_id], [path_id], [first], [len(x)], x, y, [released])
+        self._publish("warehouse/follow", message)
 
     def lift(self, kiva_id: int, shelf_id: int, up: bool) -> None:
         """Publishes on /lift."""

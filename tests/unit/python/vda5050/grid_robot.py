@@ -54,11 +54,6 @@ class GridRobot(Driver):
             self.path, self.path_id, self.reached, self.busy = cells, path_id, 1, True
             self.limits = {}
 
-    def follow_limited(self, path_id, first, points, released, speeds):
-        self.follow(path_id, first, points, released)
-        if not (self.deaf or self.refusal):
-            self.limits.update(enumerate(speeds, first))
-
     def lift(self, unit, up):
         if self.deaf:
             return
@@ -143,6 +138,11 @@ class LimitedRobot(GridRobot):
     """A GridRobot that keeps speed limits."""
 
     keeps_speeds = True
+
+    def follow(self, path_id, first, points, released, speeds=()):
+        super().follow(path_id, first, points, released)
+        if not (self.deaf or self.refusal):
+            self.limits.update(enumerate(speeds, first))
 
 
 class Bench:

@@ -26,7 +26,7 @@ class Paths:
     def taken_before(self, kiva_id):
         return self.taken.get(kiva_id)
 
-    def follow(self, _kiva_id, path_id, _first, points, _released):
+    def follow(self, _kiva_id, path_id, _first, points, _released, _speeds):
         self.sent.append((path_id, [*points]))
 
     def set_mode(self, _kiva_id, _mode):

@@ -2,10 +2,10 @@
 """A robot with faults, as a driver around that of the robot."""
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
-from warehouse_vda5050.driver import Driver, Point, Report
+from warehouse_vda5050.driver import Driver, Report
 from warehouse_vda5050.errors import Error, ErrorLevel, ErrorType
 from warehouse_vda5050.faults.active import ActiveFaults
 from warehouse_vda5050.faults.kinds import JUMP, LOW, SLOW, Fault
@@ -83,20 +83,9 @@ class FaultyDriver(Driver):
 
     # What faults leave as it is.
 
-    def follow(self, path_id: int, first: int, points: Sequence[Point], released: int) -> None:
-        """Drives a path, or extends the one under way."""
-        self._driver.follow(path_id, first, points, released)
-
-    def follow_limited(
-        self,
-        path_id: int,
-        first: int,
-        points: Sequence[Point],
-        released: int,
-        speeds: Sequence[float],
-    ) -> None:
-        """Drives a path with speed limits, extends it, or changes its limits."""
-        self._driver.follow_limited(path_id, first, points, released, speeds)
+    def follow(self, *path: Any) -> None:
+        """Drives a path, or extends the one under way; with speeds if it gets them."""
+        self._driver.follow(*path)
 
     def lift(self, unit: str, up: bool) -> None:
         """Lifts the unit that stands here, or puts it down."""

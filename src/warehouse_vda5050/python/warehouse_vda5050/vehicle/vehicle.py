@@ -351,9 +351,11 @@ class Vehicle:
         planned = planned_path(order, self.grid, report)
         limit, wall = self.zones.limit, self.zones.clock()
         held = self.paused or self.actions.holds_driving or bool(self.wheels.fault)
+        if held:
+            return {"planned": planned}
         speeds = self._speeds(order)
         soon = intermediate_path(order, self.grid, report, self.sheet, limit, speeds, wall)
-        return {"planned": planned, "intermediate": () if held else soon}
+        return {"planned": planned, "intermediate": soon}
 
     def _situation(self) -> Situation:
         return Situation(

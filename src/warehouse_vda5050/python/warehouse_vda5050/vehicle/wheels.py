@@ -153,10 +153,8 @@ class Wheels:
     def _send(self, leg: Leg, first: int) -> None:
         """Sends the points of a leg from number `first` on."""
         points, count = leg.points[first:], len(leg.points)
-        if leg.speeds:
-            self._driver.follow_limited(leg.path_id, first, points, count, leg.speeds[first:])
-        else:
-            self._driver.follow(leg.path_id, first, points, count)
+        speeds = [leg.speeds[first:]] if leg.speeds else []  # drivers without limits get none
+        self._driver.follow(leg.path_id, first, points, count, *speeds)
 
     def _points(self, cells: list[Cell]) -> list[Point]:
         return [self.grid.position(cell) for cell in cells]

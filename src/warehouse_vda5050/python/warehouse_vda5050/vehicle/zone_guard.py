@@ -84,8 +84,8 @@ class ZoneGuard:
             return
         self._inside = [zone for zone in zones.zones if self._is_in(zone, report)]
         way = self._way(order, grid, report) if order else []
-        self.speeds = [self._speed_on(stretch) for stretch in way]
-        needed = self._needed(way)
+        self.speeds = self._speeds(way)
+        needed = self._entered(way, ZoneType.RELEASE)
         soon = itertools.chain(*needed[: _near(way)])
         within = [zone for zone in self._inside if zone.type is ZoneType.RELEASE]
         self.releases.update(soon, within, zones.id, self.clock())
@@ -105,15 +105,15 @@ class ZoneGuard:
         loaded = _loads(order.nodes, bool(report.load))
         return list(stretches(points, loaded, self._sheet, report.yaw))
 
-    def _needed(self, way: Sequence[Stretch]) -> list[list[Zone]]:
-        """Returns the RELEASE zones that the robot enters on each stretch."""
-        release = [zone for zone in self._zones if zone.type is ZoneType.RELEASE]
-        return [[zone for zone in release if stretch.enters(zone)] for stretch in way]
+    def _entered(self, way: Sequence[Stretch], type: ZoneType) -> list[list[Zone]]:
+        """Returns the zones of a type that the robot's contour enters on each stretch."""
+        zones = [zone for zone in self._zones if zone.type is type]
+        return [[zone for zone in zones if stretch.enters(zone)] for stretch in way]
 
-    def _speed_on(self, stretch: Stretch) -> float:
-        """Returns the highest speed on a stretch, on which the contour may enter zones [m/s]."""
-        limits = [zone for zone in self._zones if zone.type is ZoneType.SPEED_LIMIT]
-        return min((zone.number for zone in limits if stretch.enters(zone)), default=math.inf)
+    def _speeds(self, way: Sequence[Stretch]) -> list[float]:
+        """Returns the highest speed on each stretch [m/s]; inf = any."""
+        entered = self._entered(way, ZoneType.SPEED_LIMIT)
+        return [min((zone.number for zone in zones), default=math.inf) for zones in entered]
 
     def _limit_to(
         self, order: OrderProgress, way: Sequence[Stretch], needed: Sequence[Sequence[Zone]]

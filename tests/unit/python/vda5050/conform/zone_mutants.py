@@ -153,7 +153,7 @@ patched("names_no_type", "RELEASE_LOST is the error's type", (zone_guard, "_erro
 patched(
     "zone_speed_ignored",
     "a SPEED_LIMIT zone limits the speed",
-    (ZoneGuard, "_speed_on", lambda self, stretch: math.inf),
+    (ZoneGuard, "_speeds", lambda self, way: [math.inf] * len(way)),
 )
 patched("zone_over_edge", "the lowest limit applies", (Vehicle, "_speeds", _zones_first))
 patched(
