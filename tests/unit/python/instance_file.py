@@ -120,7 +120,9 @@ def write_tiers_instance(path, tiers=2, **values):
     Its lane leads along above the topmost street, from its right end, as the landing's left.
     """
     root = ElementTree.parse(write_instance(path, **values)).getroot()
-    places = {(float(w.get("X")), float(w.get("Y"))): w for w in root.iter("Waypoint") if w.get("X")}
+    places = {
+        (float(w.get("X")), float(w.get("Y"))): w for w in root.iter("Waypoint") if w.get("X")
+    }
     top = max(y for _, y in places)
     row = sorted(x for x, y in places if y == top)[2 : 2 + QUEUE + 1]
     spacing = row[1] - row[0]
@@ -138,7 +140,9 @@ def write_tiers_instance(path, tiers=2, **values):
         landings.append(int(lane[0].get("ID")) + tier * count)
         ElementTree.SubElement(parts["Waypoints"], "Waypoint").text = str(landings[-1])
         for group, elements in single if tier else []:
-            group.extend(_on_tier(element, tier, len(elements), count, stations) for element in elements)
+            group.extend(
+                _on_tier(element, tier, len(elements), count, stations) for element in elements
+            )
     for a, b in itertools.permutations(range(tiers), 2):
         text = f"{landings[a]}/{landings[b]}/{RIDE * abs(a - b):g}"
         ElementTree.SubElement(parts["Timings"], "Timing").text = text

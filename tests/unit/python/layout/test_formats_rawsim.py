@@ -152,8 +152,8 @@ def test_all_kinds_of_halls(write, counter_clockwise, kind, single, two_way):
         ({"SingleLane": "maybe"}, "SingleLane is 'maybe'; true or false"),
         ({"NPickStationEast": 3}, "3 stations East; there is room for 2"),
         ({"NPickStationEast": 0}, "a station to pick and one to replenish, or more"),
-        ({"TierCount": 2}, "robots here drive on one floor"),
-        ({"NElevatorsWest": 1}, "robots here drive on one floor"),
+        ({"TierCount": 2}, "one tier was expected: save the instance"),
+        ({"NElevatorsWest": 1}, "one tier was expected: save the instance"),
         ({"PodAmount": "nan"}, "PodAmount is 'nan'"),
     ],
 )

@@ -14,9 +14,9 @@ from warehouse_layout.file import drawn_floor
 from warehouse_layout.file import layout_file as lf
 from warehouse_layout.file.drawn_floor import DrawnFloor
 from warehouse_layout.file.layout_file import KINDS, Cell, LayoutFile, StationEntry
+from warehouse_layout.floor.elevators import tiers
 from warehouse_layout.floor.floor_plan import ALL_EXITS
 from warehouse_layout.floor.lane_finder import lanes_past
-from warehouse_layout.floor.elevators import tiers
 from warehouse_layout.floor.stations import (
     STEPS,
     Station,

@@ -34,7 +34,11 @@ def faults(file: LayoutFile) -> list[Fault]:
     """Returns what hinders a fleet from working there; [] if nothing does."""
     drawn = drawn_floor.areas(file.floor)
     stations, lane_faults = station_lanes.of_file(file, drawn)
-    out = [*_spacing_faults(file), *_rides(file), *(Fault(fault.text, fault.cells) for fault in lane_faults)]
+    out = [
+        *_spacing_faults(file),
+        *_rides(file),
+        *(Fault(fault.text, fault.cells) for fault in lane_faults),
+    ]
     out += _floor_faults(file, plan_of(file, drawn, stations))
     if not lane_faults:
         out += _placing_faults(file)

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from warehouse_operations.stock.rides import Leg, Option, Ride
+from warehouse_layout.floor.rides import Leg, Option, Ride
 
 if TYPE_CHECKING:
     from warehouse_operations.fleets.ideal_trips import Robot, Trips
@@ -38,7 +38,7 @@ class Journey:
 
     @property
     def left(self) -> float:
-        """The time of what follows the present drive or ride, if nobody has to wait [s]."""
+        """The time of what follows the present drive or ride, without waiting for others [s]."""
         rides = sum(leg.ride.seconds for leg in self.legs if leg.ride)
         drives = sum(leg.seconds for leg in list(self.legs)[1:])
         return drives + rides - (self.ride.seconds if self.is_riding else 0.0)

@@ -21,6 +21,7 @@ from warehouse_fleet.transports.transport_book import (
     Transport,
     TransportBook,
 )
+from warehouse_layout.floor.rides import JoinedTable, Leg, Ride
 from warehouse_operations.fleets.activities import ACTIVITIES
 from warehouse_operations.fleets.availability import Upkeep
 from warehouse_operations.fleets.consumption import Consumption, MassOfItems, Way
@@ -28,7 +29,6 @@ from warehouse_operations.fleets.ideal_floor import IdealFloor, Lane
 from warehouse_operations.fleets.ideal_lifts import Lifts
 from warehouse_operations.stock.event_queue import EventQueue
 from warehouse_operations.stock.protocols import Hooks, Task
-from warehouse_operations.stock.rides import JoinedTable, Leg, Ride
 from warehouse_operations.stock.travel import Table, Travel
 
 OUT = "out of service"  # beside the ACTIVITIES
@@ -354,7 +354,7 @@ class Trips:
         robot: Robot,
         wait: float = 0.0,
     ) -> None:
-        """Schedules an act at the end of a way. seconds: of one without rides, with its wait [s]."""
+        """Schedules an act at the end of a way. seconds: of one without rides [s]."""
         if len(legs) > 1:
             self.lifts.begin(wait, legs, act, argument, robot)
         else:

@@ -3,7 +3,7 @@
 
 A run of n cells takes n * spacing / speed plus one start and stop (speed / acceleration); a quarter
 turn takes its time, and a start and stop more. Between tiers, ways have rides of elevators
-(rides.py). And the lead times of stations, as they were.
+(floor/rides.py). And the lead times of stations, as they were.
 """
 
 import math
@@ -16,11 +16,14 @@ import numpy as np
 from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_layout._core import routes, ways
 from warehouse_layout.floor.floor_plan import FloorPlan
-from warehouse_operations.stock.rides import CHANGE, Chains, JoinedTable, Leg, Option, Ride, rides_of
+from warehouse_layout.floor.rides import Chains, JoinedTable, Leg, Option, Ride, rides_of
 
 HEADINGS = 4
 TABLES = 400  # most tables kept; the least recently used is dropped
 PLACE_TABLES = 4000  # most tables of storage places: a floor of 50,000 cells has a thousand
+# By how much longer policies take a way with rides to be [s]: more than any drive, so that robots
+# and units change tiers only where nothing else is left, as by RAWSim-O's default.
+CHANGE = 1000.0
 
 _Key = TypeVar("_Key")
 _Value = TypeVar("_Value")
@@ -95,8 +98,8 @@ class Travel:
         return self._table(int(cell), False)
 
     def metres_to_places(self, cell: int, places: np.ndarray) -> np.ndarray:
-        """Returns the distances of a loaded robot from a cell to storage places, (n,) [m]; much more
-        to those of other tiers."""
+        """Returns the distances of a loaded robot from a cell to storage places, (n,) [m]; those of
+        other tiers are much farther."""
         seconds, steps = self._of_storage(int(cell), True)
         of = self._place[places]
         return np.where(np.isfinite(seconds[of]), steps[of] * self.plan.spacing, np.inf)
@@ -182,9 +185,9 @@ class Travel:
         table = self._search(cell, forward)
         if not self._rides:
             return table
-        speed = self.kinematics.speed
+        change = CHANGE * self.kinematics.speed
         return JoinedTable(
-            table, self._rides, lambda landing: self._of_landing(landing, forward), forward, speed
+            table, self._rides, lambda landing: self._of_landing(landing, forward), forward, change
         )
 
     def _of_landing(self, cell: int, forward: bool) -> Table:

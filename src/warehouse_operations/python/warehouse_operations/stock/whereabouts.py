@@ -8,8 +8,7 @@ import numpy as np
 from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_fleet.robots.robot_table import NOWHERE
 from warehouse_layout.floor.floor_plan import FloorPlan
-from warehouse_operations.stock.rides import CHANGE
-from warehouse_operations.stock.travel import Travel
+from warehouse_operations.stock.travel import CHANGE, Travel
 from warehouse_operations.stock.units_by_id import UnitCells
 
 WIDE = 10_000  # storage units above which distant ones are not brought to a station

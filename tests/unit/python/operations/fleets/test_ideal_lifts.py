@@ -12,8 +12,7 @@ from warehouse_operations.fleets.forked_fleet import ForkedFleet
 from warehouse_operations.fleets.ideal import IdealFleet
 from warehouse_operations.runs.rawsim import read_instance
 from warehouse_operations.runs.simulation import Description, open_operations
-from warehouse_operations.stock.rides import CHANGE
-from warehouse_operations.stock.travel import Travel
+from warehouse_operations.stock.travel import CHANGE, Travel
 from warehouse_operations.store import check
 
 
@@ -87,7 +86,7 @@ def test_two_robots_at_an_elevator(where):
 
 
 def test_an_empty_elevator_on_another_tier_is_no_wait(where):
-    """As in RAWSim-O: the next robot rides at once, though the last ride ended on the other tier."""
+    """The next robot rides at once though the last ride ended on the other tier: see RAWSim-O."""
     units = units_by_tier(where)[0][:2]
     fleet = fleet_of(where, *units)
     for unit in units:

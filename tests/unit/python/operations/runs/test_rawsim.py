@@ -227,10 +227,18 @@ LANDING, ABOVE = 450, 905  # waypoints of the elevator in a file of two tiers
         (f"{LANDING}/{ABOVE}/10", f"{ABOVE}/{LANDING}/9", f"no Timing from Waypoint {LANDING} to"),
         (f"{LANDING}/{ABOVE}/10", f"{LANDING}/{ABOVE}/-1", f"Timing is '{LANDING}/{ABOVE}/-1'"),
         ("<Waypoints><Waypoint>4", "<Waypoints><Waypoint>94", "Elevator 0 names Waypoint 9450: n"),
-        (f"{LANDING}</Waypoint><Waypoint>{ABOVE}", f"{LANDING}</Waypoint><Waypoint>{LANDING}", "tw"),
+        (
+            f"{LANDING}</Waypoint><Waypoint>{ABOVE}",
+            f"{LANDING}</Waypoint><Waypoint>{LANDING}",
+            "tw",
+        ),
         (f"{LANDING}</Waypoint><Waypoint>{ABOVE}", "7</Waypoint><Waypoint>8", "on each of its ti"),
         (f"<Waypoint>{ABOVE}</Waypoint></Waypoints>", "</Waypoints>", "no Elevator joins Tier 1"),
-        ("<Waypoint>7</Waypoint>", "<Waypoint>700</Waypoint>", "Waypoints .* and 700 are on two ti"),
+        (
+            "<Waypoint>7</Waypoint>",
+            "<Waypoint>700</Waypoint>",
+            "Waypoints .* and 700 are on two ti",
+        ),
     ],
 )
 def test_a_wrong_elevator_is_told(tmp_path, old, new, message):

@@ -13,10 +13,6 @@ import numpy as np
 
 from warehouse_layout.floor.elevators import Elevator
 
-# By how much longer policies take a way with rides to be [s]: more than any drive, so that robots
-# and units change tiers only where nothing else is left, as by RAWSim-O's default.
-CHANGE = 1000.0
-
 
 class Ride(NamedTuple):
     """A ride between two cells of an elevator, by its index in the plan, and its time [s]."""
@@ -72,8 +68,8 @@ class _Next(NamedTuple):
 class JoinedTable:
     """A Table of routes with rides.
 
-    seconds, metres: by cell; or inf. distance: metres, and those that a robot could drive during
-    CHANGE. near: the end of a ride towards the table's own cell, far: the other one.
+    seconds, metres: by cell; or inf. distance: metres, and those that count for a change of
+    tiers. near: the end of a ride towards the table's own cell, far: the other one.
     """
 
     def __init__(
@@ -82,7 +78,7 @@ class JoinedTable:
         rides: Sequence[Ride],
         table_of: Callable[[int], RoutesOfDrives],
         is_forward: bool,
-        speed: float,
+        change: float,
     ) -> None:
         self._direct, self._table_of, self._is_forward = direct, table_of, is_forward
         self._rides = rides
@@ -96,7 +92,7 @@ class JoinedTable:
             self.seconds[better] = seconds[better]
             self.metres[better] = table.metres[better] + on.metres
             self._far[better] = far
-        self.distance = self.metres + np.where(self._far >= 0, CHANGE * speed, 0.0)
+        self.distance = self.metres + np.where(self._far >= 0, change, 0.0)
 
     def _ends(self, ride: Ride) -> tuple[int, int]:
         """Returns the near and the far end of a ride."""
@@ -117,9 +113,7 @@ class JoinedTable:
                         changed = True
         return out
 
-    def _through(
-        self, ride: Ride, near: int, after: int | None, known: dict[int, _Next]
-    ) -> _Next:
+    def _through(self, ride: Ride, near: int, after: int | None, known: dict[int, _Next]) -> _Next:
         """Returns the way on by a ride, and from its near end straight or by the next far end."""
         table = self._direct if after is None else self._table_of(after)
         rest = _Next(0.0, 0.0, ride, None) if after is None else known[after]
@@ -141,9 +135,7 @@ class JoinedTable:
                 first, last = drives[::-1] if self._is_forward else drives
                 yield Option(ride, float(first), float(first + ride.seconds + last))
 
-    def _parts(
-        self, cell: int, via: Ride | None
-    ) -> list[tuple[RoutesOfDrives, int, Ride | None]]:
+    def _parts(self, cell: int, via: Ride | None) -> list[tuple[RoutesOfDrives, int, Ride | None]]:
         """Returns (table, cell, ride) of each drive between a cell and the table's own one: the
         table's routes from there, and the ride at its own cell."""
         if via:
