@@ -10,12 +10,36 @@ those that wait there and are on their way to it.
 from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
+from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_layout.floor.rides import Leg, Option, Ride
+from warehouse_operations.fleets.ideal_floor import IdealFloor
 
-if TYPE_CHECKING:
-    from warehouse_operations.fleets.ideal_trips import Robot, Trips
+
+class Rider(Protocol):
+    """A robot that rides: its index and its cell."""
+
+    index: int
+    cell: int
+
+
+class Drives(Protocol):
+    """The trips whose robots ride, as ideal_trips.Trips. time: simulated [s]."""
+
+    time: float
+    kinematics: Kinematics
+    floor: IdealFloor
+
+    def stretched(self, seconds: float, act: Callable[[Any], object]) -> float:
+        """Returns the time of a drive that ends with an act [s]."""
+        ...
+
+    def schedule(
+        self, delay: float, act: Callable[[Any], object], argument: Any, robot: Any
+    ) -> None:
+        """Schedules an act of a robot after a delay [s]."""
+        ...
 
 
 @dataclass(eq=False)
@@ -25,7 +49,7 @@ class Journey:
     legs: deque[Leg]
     act: Callable[[Any], object]
     argument: Any
-    robot: "Robot"
+    robot: Rider
     called: float = 0.0  # when it came to the elevator [s]
     is_riding: bool = False
 
@@ -60,7 +84,7 @@ class Lift:
 class Lifts:
     """The elevators of a floor, which carry the robots of some Trips."""
 
-    def __init__(self, trips: "Trips", count: int) -> None:
+    def __init__(self, trips: Drives, count: int) -> None:
         self._trips = trips
         self.all = [Lift() for _ in range(count)]
         self._coming: dict[int, int] = {}  # the elevator to which a robot drives, by its index
@@ -86,12 +110,12 @@ class Lifts:
         legs: Sequence[Leg],
         act: Callable[[Any], object],
         argument: Any,
-        robot: "Robot",
+        robot: Rider,
     ) -> None:
         """Begins a way after a wait [s], at whose end the act is called with its argument."""
         self._drive(Journey(deque(legs), act, argument, robot), wait)
 
-    def drop(self, robot: "Robot", delay: float) -> None:
+    def drop(self, robot: Rider, delay: float) -> None:
         """Ends the journey of a robot that goes no further; people need a time [s] to clear the
         elevator if it stands in one."""
         self._came(robot)
@@ -111,7 +135,7 @@ class Lifts:
             journey.robot.cell = leg.end
             trips.schedule(wait + leg.seconds, journey.act, journey.argument, journey.robot)
 
-    def _came(self, robot: "Robot") -> None:
+    def _came(self, robot: Rider) -> None:
         if (elevator := self._coming.pop(robot.index, None)) is not None:
             self.all[elevator].coming -= 1
 
