@@ -201,7 +201,7 @@ class Trips:
 
     def _drive_to_charger(self, upkeep: Upkeep, index: int, cells: list[int]) -> None:
         robot = self._idle[index]
-        cells = self._on_its_tier(robot, cells)
+        cells = self._on_its_tier(robot, cells) or cells
         seconds, metres = self.travel.unloaded([robot.cell], cells)
         taken = np.array([cell != robot.cell and upkeep.is_taken(cell) for cell in cells])
         at = int((metres[0] + TAKEN * taken).argmin())
@@ -215,11 +215,11 @@ class Trips:
         self.queue.schedule(max(able, self.time), _wake, None)
 
     def _on_its_tier(self, robot: Robot, cells: list[int]) -> list[int]:
-        """Returns the cells on a robot's tier; all of them if none is there."""
+        """Returns the cells on a robot's tier: one without work rides no elevator to park."""
         if not self.floor.plan.elevators:
             return cells
         tier = self.floor.plan.tier.flat
-        return [cell for cell in cells if tier[cell] == tier[robot.cell]] or cells
+        return [cell for cell in cells if tier[cell] == tier[robot.cell]]
 
     def _turn_off(self, robot: Robot) -> None:
         """Stops a robot on its way to a charger."""
@@ -599,7 +599,7 @@ class Trips:
         self._begin(robot, "idle")
         self._idle[robot.index] = robot
         to = self.hooks.park(robot.kiva_id, robot.cell)
-        if to is not None and to != robot.cell:
+        if to is not None and to != robot.cell and self._on_its_tier(robot, [int(to)]):
             seconds, metres = self.travel.unloaded([robot.cell], [to])
             self.distance_m += float(metres[0, 0])
             begin = max(self.time, robot.there)

@@ -9,7 +9,7 @@ from test_ideal import run
 from warehouse_fleet.transports.transports import STAY, Kind
 from warehouse_operations.fleets import fleet_now
 from warehouse_operations.fleets.forked_fleet import ForkedFleet
-from warehouse_operations.fleets.ideal import IdealFleet
+from warehouse_operations.fleets.ideal import IdealFleet, NearestHooks
 from warehouse_operations.runs.rawsim import read_instance
 from warehouse_operations.runs.simulation import Description, open_operations
 from warehouse_operations.stock.travel import CHANGE, Travel
@@ -182,6 +182,31 @@ def test_a_robot_that_breaks_down_clears_the_elevator(where):
         Kind.ARRIVED,
     ]
     assert lift.riding is None and not lift.queue
+
+
+class Homing(NearestHooks):
+    """Sends robots without work to a cell."""
+
+    def __init__(self, home):
+        self.home = home
+
+    def park(self, kiva_id, cell):
+        return self.home
+
+
+@pytest.mark.parametrize("tier", [0, 1])
+def test_a_robot_without_work_parks_on_its_tier(where, tier):
+    """It drives to a parking cell there, and waits where it is if that is on another tier."""
+    (unit, *_), _ = units_by_tier(where)
+    home = services(where)[tier].cells[0]
+    fleet = fleet_of(where, unit)
+    fleet.set_hooks(Homing(home))
+    transport = fleet.submit(unit, services(where)[0].name)
+    run(fleet, 200)
+    fleet.release(transport.transport_id)
+    run(fleet, 400)
+    (robot,) = fleet.trips.robots
+    assert (robot.cell == home) == (tier == 0)
 
 
 @pytest.mark.parametrize("at", ["coming", "waiting", "riding"])
