@@ -17,22 +17,26 @@ class PaceWatch:
     it can drive by."""
 
     def __init__(self) -> None:
-        self._seen: deque[tuple[float, float]] = deque(maxlen=DECISIONS)  # simulated, wall [s]
+        self._decisions: deque[tuple[float, float]] = deque(maxlen=DECISIONS)  # simulated, wall [s]
         self._said = -math.inf  # by the wall clock [s]
 
     def decided(self, time: float, wall: float) -> str:
         """Takes in a decision at a simulated and a wall time [s]. Returns what is wrong with the
         pace, once in REPEATED seconds, or an empty text."""
-        if self._seen and time < self._seen[-1][0]:
-            self._seen.clear()  # the world began again
-        self._seen.append((time, wall))
-        if len(self._seen) < DECISIONS or wall < self._said + REPEATED or wall <= self._seen[0][1]:
+        if self._decisions and time < self._decisions[-1][0]:
+            self._decisions.clear()  # the world began again
+        self._decisions.append((time, wall))
+        if (
+            len(self._decisions) < DECISIONS
+            or wall < self._said + REPEATED
+            or wall <= self._decisions[0][1]
+        ):
             return ""
-        apart = median(after[0] - before[0] for before, after in pairwise(self._seen))
+        apart = median(after[0] - before[0] for before, after in pairwise(self._decisions))
         if apart < TOO_LONG:
             return ""
         self._said = wall
-        most = MEANT * (DECISIONS - 1) / (wall - self._seen[0][1])
+        most = MEANT * (DECISIONS - 1) / (wall - self._decisions[0][1])
         return (
             f"simulated time runs away from the coordinator: {apart:.1f} s pass between two of its "
             f"decisions, of which {MEANT:g} s are meant. Robots wait for it, so what they deliver "

@@ -26,7 +26,7 @@ bool Yielding::choose(const std::vector<int>& waiting, const Candidates& candida
   const int robots = static_cast<int>(wishes.size());
   pursued_.resize(robots, kNowhere);
   int pursuing = 0;
-  std::vector<int> without;  // a goal elsewhere
+  std::vector<int> without;                 // a goal elsewhere
   std::vector<std::pair<int, int>> others;  // distance less wait of each, and the robot
   for (int robot = 0; robot < robots; ++robot) {
     const Wish& wish = wishes[robot];
