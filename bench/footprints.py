@@ -17,7 +17,12 @@ FIGURES = {
     "picking visits": ("OverallPodsHandledAtOStations", 59),
     "replenishing visits": ("OverallPodsHandledAtIStations", 58),
 }
-KEYS = {"instance": ("Instance", 0), "seconds": ("Duration", 14), "robots": ("NBots", 16)}
+KEYS = {
+    "instance": ("Instance", 0),
+    "settings": ("Setting", 1),
+    "seconds": ("Duration", 14),
+    "robots": ("NBots", 16),
+}
 ENTRIES = 273  # in a line without a header
 
 
@@ -29,6 +34,7 @@ class Footprint(NamedTuple):
     """The figures of a run of RAWSim-O: `figures` has the order of FIGURES."""
 
     instance: str
+    settings: str  # their Name
     robots: int
     seconds: float
     figures: tuple[float, ...]
@@ -65,6 +71,7 @@ def _footprint(place, values, columns, count):
 
     return Footprint(
         Path(values[columns["Instance"]]).stem,
+        values[columns["Setting"]],
         int(number("NBots")),
         number("Duration"),
         tuple(number(entry) for entry, _ in FIGURES.values()),

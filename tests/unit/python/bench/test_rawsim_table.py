@@ -13,10 +13,10 @@ sys.path.insert(0, str(ROOT / "bench"))
 import footprints  # noqa: E402
 
 
-def line(robots=16, seconds=300, pieces=44):
+def line(robots=16, seconds=300, pieces=44, settings=""):
     """A run's footprint.csv: figures in their places among zeros."""
     values = ["0"] * footprints.ENTRIES
-    values[0] = "a"
+    values[:2] = "a", settings
     values[14], values[16], values[35], values[44] = map(str, (seconds, robots, pieces, 123.5))
     return ";".join(values)
 
@@ -41,9 +41,9 @@ def test_a_footprint_without_a_header_and_a_collection_with_one(tmp_path):
     assert first.figures[0] == 44 and first.figures[2] == 123.5
     names = [entry for entry, _ in [*footprints.KEYS.values(), *footprints.FIGURES.values()]]
     many = tmp_path / "footprints.csv"
-    many.write_text(";".join(names) + "\nb;600;8;1;2;3;4;5;6\n")
+    many.write_text(";".join(names) + "\nb;few;600;8;1;2;3;4;5;6\n")
     (second,) = footprints.read(many)
-    assert second == ("b", 8, 600, (1, 2, 3, 4, 5, 6))
+    assert second == ("b", "few", 8, 600, (1, 2, 3, 4, 5, 6))
 
 
 @pytest.mark.parametrize(
@@ -77,3 +77,18 @@ def test_the_table_has_theirs_where_robots_and_time_agree_and_names_what_is_refu
     assert any("on Tier 1, which has no Waypoint" in text for text in rest)
     out, err = table(tmp_path / "a.xinst", footprint, "--seeds", 1, "--seconds", 60)
     assert out.splitlines()[2].endswith("|  |  |  |  |  |  |")
+
+
+def test_runs_with_other_settings_are_not_compared(tmp_path):
+    write_instance(tmp_path / "a.xinst")
+    settings = tmp_path / "few.xsett"
+    settings.write_text("<SettingConfiguration><Name>few</Name></SettingConfiguration>")
+    footprint = tmp_path / "footprint.csv"
+    footprint.write_text(line(settings="many", seconds=60) + "\n")
+    arguments = tmp_path / "a.xinst", footprint, "--seeds", 1, "--seconds", 60
+    out, err = table(*arguments, "--settings", settings)
+    assert "RAWSim-O:" not in out.splitlines()[0], err
+    assert "Not compared: RAWSim-O ran a with the settings many, not few" in out
+    footprint.write_text(line(settings="few", seconds=60) + "\n")
+    out, err = table(*arguments, "--settings", settings)
+    assert "| 44 |" in out and "Not compared" not in out, err

@@ -11,7 +11,8 @@ class Together:
     """Waits for `most` bundles that fit on one unit while the stock is above `stop`, a share of its
     room; for fewer as it falls, and for none below `begin`.
 
-    Raises ValueError for fewer than one bundle, and unless 0 <= begin < stop <= 1.
+    fills: a visit takes along all bundles that have a place on its unit, also those that come while
+    it lasts. Raises ValueError for fewer than one bundle, and unless 0 <= begin < stop <= 1.
     """
 
     def __init__(self, most: int = 8, begin: float = 0.65, stop: float = 0.85) -> None:
@@ -20,6 +21,7 @@ class Together:
         if not 0 <= begin < stop <= 1:
             raise ValueError(f"begin {begin} and stop {stop}; 0 <= begin < stop <= 1 was expected")
         self.most, self.begin, self.stop = most, begin, stop
+        self.fills = True
 
     def least(self, view: "View") -> int:
         """Returns the fewest bundles with which a unit is fetched now."""

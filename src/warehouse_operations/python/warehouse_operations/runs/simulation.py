@@ -139,6 +139,8 @@ def remarks(description: Description) -> list[str]:
     sentences: list[str] = []
     if description.settings:
         sentences += read_settings(description.settings).not_followed
+    if description.instance:
+        sentences += _left_out(description)
     if description.instance and not description.physics:
         jams = _jams(description.instance, read_instance(description.instance))
         sentences += (
@@ -155,6 +157,22 @@ def _of_bodies(file: LayoutFile) -> list[str]:
     impossible for ideal robots as well."""
     faults = file_check.faults(file)
     return [fault.text for fault in faults] if all(fault.is_of_bodies for fault in faults) else []
+
+
+def _left_out(description: Description) -> list[str]:
+    """Returns a sentence about SKUs of an instance that no pod holds a bundle of."""
+    site = read_instance(description.instance)
+    if description.settings:
+        site = _of_settings(site, read_settings(description.settings))
+    goods = site.goods
+    if not goods or len(goods.skus) == len(goods.kinds.weights):
+        return []
+    count, most = len(goods.kinds.weights), max(goods.limits.values(), default=0.0)
+    return [
+        f"{description.instance}: {count - len(goods.skus)} of {count} SKUs are left out: no pod"
+        f" holds a bundle of them, at a Capacity of {most:g} at most; RAWSim-O ends with an error"
+        " where it draws one at the begin"
+    ]
 
 
 def _jams(path: str, site: Site) -> str:

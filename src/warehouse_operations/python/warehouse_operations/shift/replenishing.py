@@ -45,6 +45,7 @@ class Replenishing:
         self._goods_in, self._visits, self._task_numbers = goods_in, visits, task_numbers
         self.sold_out: set[str] = set()  # SKUs of which no more come
         self._look, self._next_look = True, 0.0
+        self._came: list[Bundle] = []  # bundles that no visit under way was tried for
         visits.register(self, replenishes=True)
         for station in stations:
             station.on_hands_free.append(self.next_bundle)
@@ -53,7 +54,7 @@ class Replenishing:
         """Queues a bundle that has arrived; drops it if its SKU is sold out."""
         if sku in self.sold_out:
             return
-        self._goods_in.order(sku, quantity, self._clock.now)
+        self._came.append(self._goods_in.order(sku, quantity, self._clock.now))
         self._look = True
 
     def refill(self) -> None:
@@ -71,6 +72,7 @@ class Replenishing:
         if not self._look or self._clock.now < self._next_look:
             return
         self._look = False
+        self._take_along()
         limit = -(-self._visits.most // 2)  # few visits, each with many bundles
         coming = {s: n for s in self.stations if s.is_open and (n := _coming(s)) < limit}
         while self._goods_in.bundles and coming:
@@ -86,7 +88,7 @@ class Replenishing:
         returns whether one comes."""
         bundles, units = self._goods_in.bundles.values(), self._visits.free_units
         least = self._policies.batches.least(self._view)
-        if least <= 1:
+        if least <= 1 and not self._fills:
             return self._fetch_one(station, [*islice(bundles, LOOK_AHEAD)], units)
         size_of = batches.sizes(self._inventory, units, bundles)
         near = self._within_reach(station, [*size_of])
@@ -95,7 +97,18 @@ class Replenishing:
             self._next_look = self._clock.now + PAUSE
             return self._fetch_one(station, self._urgent()[:LOOK_AHEAD], units)
         best = {unit for unit in near if size_of[unit] == largest}
-        return self._fetch_one(station, [*bundles], best)
+        return self._fetch_one(station, self._by_urgency(), best)
+
+    def _by_urgency(self) -> list[Bundle]:
+        """Returns the bundles that wait: first those that orders lack, or that have waited for
+        PATIENCE."""
+        urgent = {bundle.bundle_id for bundle in self._urgent()}
+        bundles = self._goods_in.bundles
+        return [bundles[i] for i in sorted(bundles, key=lambda i: i not in urgent)]
+
+    @property
+    def _fills(self) -> bool:
+        return getattr(self._policies.batches, "fills", False)
 
     def _urgent(self) -> list[Bundle]:
         """Returns the bundles that orders lack, or that have waited for PATIENCE."""
@@ -148,17 +161,34 @@ class Replenishing:
         is_near = seconds <= seconds.min() + floor.reach
         return [unit for unit, near in zip(units, is_near.tolist()) if near]
 
+    def _take_along(self) -> None:
+        """Adds bundles that have come to visits under way, if the policy fills these."""
+        came, self._came = self._came, []
+        if not self._fills:
+            return
+        visits = [v for s in self.stations if s.is_open for v in s.coming_for(replenishes=True)]
+        for bundle in came:
+            if bundle.bundle_id in self._goods_in.bundles:
+                any(self._add(visit, bundle) for visit in visits)
+
     def _fill_up(self, visit: Visit) -> None:
         """Adds other waiting bundles that have a place on the same unit to its visit."""
+        waiting = self._by_urgency() if self._fills else [*self._goods_in.bundles.values()]
+        for bundle in waiting:
+            self._add(visit, bundle)
+
+    def _add(self, visit: Visit, bundle: Bundle) -> bool:
+        """Adds a waiting bundle to a visit if its unit has a place for it, and returns whether it
+        has: in a bin of its SKU, or in an empty one if the policy fills visits, or little is
+        left."""
         inventory, bins = self._inventory, self._inventory.of_unit[visit.unit]
-        is_batch = self._policies.batches.least(self._view) > 1
-        for bundle in list(self._goods_in.bundles.values()):
-            places = [bin_ for bin_ in bins if inventory.takes(bin_, bundle.sku, bundle.quantity)]
-            same = [bin_ for bin_ in places if bin_.sku == bundle.sku]
-            if same:
-                self._place(bundle, min(same, key=lambda bin_: bin_.room), visit)
-            elif places and (is_batch or self._view.stock_of(bundle.sku) < bundle.quantity):
-                self._place(bundle, places[0], visit)
+        places = [bin_ for bin_ in bins if inventory.takes(bin_, bundle.sku, bundle.quantity)]
+        same = [bin_ for bin_ in places if bin_.sku == bundle.sku]
+        if same:
+            self._place(bundle, min(same, key=lambda bin_: bin_.room), visit)
+        elif places and (self._fills or self._view.stock_of(bundle.sku) < bundle.quantity):
+            self._place(bundle, places[0], visit)
+        return bundle.bin is not None
 
     def _place(self, bundle: Bundle, bin_: Bin, visit: Visit) -> None:
         self._goods_in.remove(bundle)
@@ -222,6 +252,7 @@ class Replenishing:
         self._inventory.unexpect(bundle.bin, bundle.sku, bundle.quantity)
         bundle.bin = None
         self._goods_in.add(bundle)
+        self._came.append(bundle)
         self._look = True
 
     def open(self, station: WorkStation) -> None:

@@ -20,9 +20,11 @@ class GoodsIn:
         self.changed: set[str] = set()
         self._ids = itertools.count(1)
 
-    def order(self, sku: str, quantity: int, now: float) -> None:
-        """Adds a new bundle that arrives at a time [s]."""
-        self.add(Bundle(next(self._ids), sku, quantity, now))
+    def order(self, sku: str, quantity: int, now: float) -> Bundle:
+        """Adds a new bundle that arrives at a time [s], and returns it."""
+        bundle = Bundle(next(self._ids), sku, quantity, now)
+        self.add(bundle)
+        return bundle
 
     def add(self, bundle: Bundle) -> None:
         """Adds a bundle as the last one."""

@@ -155,6 +155,38 @@ def test_bundles_that_go_together_save_trips():
     assert as_many > 0.98 * pieces and together > 1.5 * at_once
 
 
+def test_bundles_go_together_where_stock_is_low_as_well():
+    figures = {}
+    for name in ("at once", "together"):
+        low = {"name": "together", "begin": 0.98, "stop": 1.0} if name == "together" else name
+        ops = Operations(site=site(), physics=False, policies=Policies({"batches": low}), seed=3)
+        ops.run(hours=1)
+        assert ops.shift.inventory.level < 0.98  # one bundle is enough to fetch a unit
+        kpis = ops.kpis()
+        visits = kpis["trips"] - kpis["items_picked"] / kpis["pile_on"]
+        figures[name] = kpis["items_picked"], kpis["bundles_stored"] / visits
+    (pieces, at_once), (as_many, together) = figures.values()
+    assert as_many > 0.98 * pieces and together > 1.2 * at_once
+
+
+def test_a_bundle_that_comes_goes_along_with_a_unit_under_way():
+    for name in ("together", "at once"):
+        ops = Operations(site=site(), physics=False, policies=Policies({"batches": name}), seed=3)
+        ops.run(minutes=1)
+        shift = ops.shift
+        station = shift.replenishing.stations[0]
+        visit, sku = next(
+            (visit, bin_.sku)
+            for visit in station.coming_for(replenishes=True)
+            for bin_ in shift.inventory.of_unit[visit.unit]
+            if shift.inventory.takes(bin_, bin_.sku, 1)
+        )
+        before = len(visit.puts)
+        shift.replenishing.order(sku, 1)
+        shift.advance(shift.now)
+        assert (len(visit.puts) > before) == (name == "together")
+
+
 @pytest.mark.parametrize("name", ["most lines", "most work"])
 @pytest.mark.parametrize("reach, unit", [(20, 1), (120, 2), (170, 3)])
 def test_units_farther_than_the_reach_from_the_nearest_are_left(name, reach, unit):
