@@ -261,6 +261,8 @@ class ViewerPage(PageTest):
             self.assertIn(self.page.read("page.selected"), self.page.text("spoken"))
         self.assertGreater(len(chosen), 1)
         self.page.until("page.overlays.ring.visible")
+        # While its panel grows, the picture moves aside so that the robot isn't covered.
+        self.page.until("performance.now() - page.chosenAt > 2000")
         self.page.type(Keys.ENTER)
         self.page.until("!page.navigator.flight")
         centre = "page.stage.controls.target.distanceTo(page.overlays.ring.position)"

@@ -203,6 +203,7 @@ class Troubles(BrokerCase):
             self.assertIn("theta", node["nodePosition"])
         x, y = self.grid.position(self.grid.cell_at(*WIDE))
         self.vehicle.do(self.stand, x, y, 0.0)
+        wait_until(lambda: abs(self.row()["yaw"]) < 0.01, "its state")  # else it is lost at once
         set_modes(AUTOMATIC, NUMBER)
         self.until_no_alarm(f"kiva{NUMBER} {LOST}")
         stored = lambda event: (event.kind, event.shelf_id) == (TransportEvent.STORED, UNIT)  # noqa: E731
