@@ -173,6 +173,7 @@ test('a file says what was drawn, from its lowest cell on, and comes back the sa
   const drawing = drawn('.s.', ' .A');
   const [station] = drawing.stations;
   Object.assign(drawing, { name: 'a "b": #1', robots: [[0, 1]], units: 1, spacing: 0.9, policies: { idle: 'x' } });
+  drawing.elevators = [{ name: 'lift', cells: [[0, 1], [2, 1]], seconds: 10 }];
   drawLane(drawing, station, 'queue', [[1, 0]]);
   drawing.set(-2, -1, '.');
   const { text, origin } = textOf(drawing);
@@ -186,6 +187,8 @@ floor: |2
   .    
 stations:
   A: {"name":"pick1","kind":"pick","queue":[[3,1]]}
+elevators:
+  lift: {"cells":[[2,2],[4,2]],"seconds":10}
 storage_units: 1.0
 robots: [[2,2]]
 items: 4

@@ -3,12 +3,14 @@
 on the right, replenishing stations on the left, with straight lanes or with halls and winding ones.
 Layout configurations: the parameters of its generator, those of its BasicInstance among them."""
 
+import copy
 import itertools
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 
 BLOCK, LANE = 5, 4  # cells
+QUEUE = 4  # cells before an elevator
 
 
 def write_instance(
@@ -107,6 +109,77 @@ def write_hall_instance(path, stations=2, blocks=5, bots=16, filled=0.85):
     starts = [free[i] for i in np.random.default_rng(4).permutation(len(free))[:bots]]
     kind = {"MaxAcceleration": "0.5", "MaxDeceleration": "0.5", "PodTransferTime": "3"}
     return _write(path, edges, storage, queues, lanes, starts, 1.0, filled, False, kind)
+
+
+RIDE = 10.0  # from tier to tier [s]
+
+
+def write_tiers_instance(path, tiers=2, **values):
+    """Writes an instance with the floor of write_instance(**values) on each tier, and an elevator.
+
+    Its lane leads along above the topmost street, from its right end, as the landing's left.
+    """
+    root = ElementTree.parse(write_instance(path, **values)).getroot()
+    places = {
+        (float(w.get("X")), float(w.get("Y"))): w for w in root.iter("Waypoint") if w.get("X")
+    }
+    top = max(y for _, y in places)
+    row = sorted(x for x, y in places if y == top)[2 : 2 + QUEUE + 1]
+    spacing = row[1] - row[0]
+    lane = [_waypoint(root, x, top + spacing) for x in row]  # the landing first
+    for ahead, behind in zip(lane, lane[1:]):
+        _add_path(behind, ahead)
+    _add_path(lane[0], places[row[0], top])
+    _add_path(places[row[-1], top], lane[-1])
+    elevator = ElementTree.SubElement(ElementTree.SubElement(root, "Elevators"), "Elevator", ID="0")
+    parts = {part: ElementTree.SubElement(elevator, part) for part in ("Waypoints", "Timings")}
+    single = [(group, list(group)) for group in root if group.tag != "Elevators"]
+    stations = {group.tag: len(elements) for group, elements in single}
+    landings, count = [], max(int(w.get("ID")) for w in root.find("Waypoints")) + 1
+    for tier in range(tiers):
+        landings.append(int(lane[0].get("ID")) + tier * count)
+        ElementTree.SubElement(parts["Waypoints"], "Waypoint").text = str(landings[-1])
+        for group, elements in single if tier else []:
+            group.extend(
+                _on_tier(element, tier, len(elements), count, stations) for element in elements
+            )
+    for a, b in itertools.permutations(range(tiers), 2):
+        text = f"{landings[a]}/{landings[b]}/{RIDE * abs(a - b):g}"
+        ElementTree.SubElement(parts["Timings"], "Timing").text = text
+        ends = {w.get("ID"): w for w in root.find("Waypoints")}
+        _add_path(ends[str(landings[a])], ends[str(landings[b])])
+    ElementTree.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)
+    return path
+
+
+def _waypoint(root, x, y):
+    """Adds a waypoint of a queue, without paths."""
+    group = root.find("Waypoints")
+    values = {"ID": str(len(group)), "X": f"{x:.4f}", "Y": f"{y:.4f}", "Tier": "0"}
+    out = ElementTree.SubElement(group, "Waypoint", IsQueueWaypoint="true", **values)
+    ElementTree.SubElement(out, "Paths")
+    return out
+
+
+def _add_path(start, end):
+    ElementTree.SubElement(start.find("Paths"), "Waypoint").text = end.get("ID")
+
+
+def _on_tier(element, tier, others, waypoints, stations):
+    """A copy of an element on another tier. others, waypoints, stations: how many of its kind, and
+    of those, a tier has."""
+    out = copy.deepcopy(element)
+    count = waypoints if out.tag == "Waypoint" else others
+    out.set("ID", str(int(out.get("ID")) + tier * count))
+    out.set("Tier", str(tier))
+    for part in out.iter():
+        if part.text and part.text.strip():
+            numbers = [str(int(number) + tier * waypoints) for number in part.text.split("/")]
+            part.text = "/".join(numbers)
+    for kind in ("OutputStation", "InputStation"):
+        if out.get(kind, "-1") != "-1":
+            out.set(kind, str(int(out.get(kind)) + tier * stations[f"{kind}s"]))
+    return out
 
 
 def _join_storage(join, storage):

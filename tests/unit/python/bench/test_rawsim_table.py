@@ -74,7 +74,7 @@ def test_the_table_has_theirs_where_robots_and_time_agree_and_names_what_is_refu
     assert header.count("RAWSim-O") == len(footprints.FIGURES), err
     assert cells[:3] == ["a", "16", "5 min"] and float(cells[3]) > 20
     assert cells[10] == "44" and cells[12] == "124"
-    assert any("2 tiers" in text for text in rest)
+    assert any("on Tier 1, which has no Waypoint" in text for text in rest)
     out, err = table(tmp_path / "a.xinst", footprint, "--seeds", 1, "--seconds", 60)
     assert out.splitlines()[2].endswith("|  |  |  |  |  |  |")
 

@@ -51,6 +51,12 @@ def test_as_many_tasks_are_known_as_the_problem_says_and_the_first_come_again():
     assert dealt(scheduler, [NOWHERE], [0], [1], finished=2) == {0: 2}
 
 
+def test_on_a_crowded_floor_those_nearest_to_a_task_get_one():
+    robots = range(0, 20, 2)  # ten on 20 cells, of which nine may be at work
+    scheduler = of([[cell, cell] for cell in range(10, 20)], robots, reveal=1)
+    assert dealt(scheduler, [NOWHERE] * 10, [0] * 10, robots).keys() == {*range(1, 10)}
+
+
 @pytest.mark.parametrize("most, first", [(4000, 1), (1, 0)])
 def test_ways_lead_around_walls_but_on_large_maps(monkeypatch, most, first):
     monkeypatch.setattr(schedulers, "MOST_TABLE", most)

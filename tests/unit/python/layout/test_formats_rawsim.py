@@ -5,7 +5,12 @@ import re
 
 import numpy as np
 import pytest
-from instance_file import write_configuration, write_hall_instance, write_instance
+from instance_file import (
+    write_configuration,
+    write_hall_instance,
+    write_instance,
+    write_tiers_instance,
+)
 
 from warehouse_layout import convert as formats
 from warehouse_layout.convert import FormatError
@@ -53,6 +58,24 @@ def test_an_instance(tmp_path, write, notes):
     pick = file.stations[0]
     assert pick.settings == {"capacity": 12, "seconds_a_piece": 10.0, "pick_seconds": 3.0}
     assert file.items == 5 * len(instance.units)
+
+
+def test_tiers_and_elevators(tmp_path):
+    """They lie side by side in a layout, which says where elevators lead, and survive a world."""
+    layout, world = tmp_path / "a.layout.yaml", tmp_path / "a.sdf"
+    assert formats.convert(write_tiers_instance(tmp_path / "a.xinst", tiers=3), layout) == []
+    file = layout_file.read(layout)
+    (elevator,) = file.elevators
+    columns, rows = zip(*elevator.cells)
+    assert elevator.seconds == 10 and columns == (6, 36, 66) and set(rows) == {22}
+    drawn = plan(file)
+    assert [int((drawn.tier == tier).sum()) for tier in range(-1, 3)][1:] == [455] * 3
+    assert (drawn.tier[:, 27:30] == -1).all()
+    assert [fault.is_of_bodies for fault in file_check.faults(file)] == [True]
+    assert formats.convert(layout, world) == []
+    assert formats.read(world)[0].elevators == file.elevators
+    (note,) = [n for n in formats.convert(layout, tmp_path / "a.map") if "elevator" in n]
+    assert note == "elevators are left out, and tiers lie beside each other: elevator0"
 
 
 def test_a_short_cut_in_a_queue_is_reported(tmp_path):
@@ -129,8 +152,8 @@ def test_all_kinds_of_halls(write, counter_clockwise, kind, single, two_way):
         ({"SingleLane": "maybe"}, "SingleLane is 'maybe'; true or false"),
         ({"NPickStationEast": 3}, "3 stations East; there is room for 2"),
         ({"NPickStationEast": 0}, "a station to pick and one to replenish, or more"),
-        ({"TierCount": 2}, "robots here drive on one floor"),
-        ({"NElevatorsWest": 1}, "robots here drive on one floor"),
+        ({"TierCount": 2}, "one tier was expected: save the instance"),
+        ({"NElevatorsWest": 1}, "one tier was expected: save the instance"),
         ({"PodAmount": "nan"}, "PodAmount is 'nan'"),
     ],
 )

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from warehouse_layout.file import layout_file as lf
+from warehouse_layout.place import file_check
 
 TEXT = """layout: 1
 name: north hall
@@ -89,6 +90,66 @@ def test_what_is_no_layout_is_refused_in_one_sentence(text):
         lf.parse(text, "x.layout.yaml")
     assert str(error.value).startswith("x.layout.yaml")
     assert "\n" not in str(error.value)
+
+
+RIDES = """layout: 1
+floor: |
+  #s.. ..s#
+  #>.> ...A
+stations:
+  A: {name: pick1}
+elevators:
+  lift: {cells: [[2, 0], [6, 0]], seconds: 12}
+  other lift: {cells: [[2, 1], [6, 1]], seconds: [[0, 9], [8, 0]]}
+"""
+
+
+def test_elevators():
+    first, second = lf.parse(RIDES).elevators
+    assert first == lf.ElevatorEntry("lift", ((2, 0), (6, 0)), 12.0)
+    assert second.seconds == ((0, 9), (8, 0))
+    assert lf.parse(lf.text_of(lf.parse(RIDES))).elevators == (first, second)
+    assert list(first.of_plan(9).rides()) == [(2, 6, 12), (6, 2, 12)]
+    assert list(second.of_plan(9).rides()) == [(11, 15, 9), (15, 11, 8)]
+    for entry in (first, second):
+        assert lf.ElevatorEntry.of_elevator(entry.of_plan(9), 9) == entry
+
+
+@pytest.mark.parametrize(
+    "before, after, message",
+    [
+        ("seconds: 12", "second: 12", "8:35: 'second' is not a key of an elevator; did you mean"),
+        (", seconds: 12", "", "8:9: elevator 'lift': 'seconds' is missing"),
+        ("seconds: 12", "seconds: -1", "8:44: elevator 'lift': seconds is -1; a number from 0 to"),
+        ("[[0, 9], [8, 0]]", "[[0, 9]]", "9:50: elevator 'other lift': seconds: a number, or a"),
+        ("[[0, 9], [8, 0]]", "[[0, 9], 8]", "9:50: elevator 'other lift': seconds: a number, or"),
+        ("[[2, 0], [6, 0]]", "[[2, 0]]", "8:17: elevator 'lift': a cell on each of two tiers or"),
+        ("[[2, 0], [6, 0]]", "[[2, 0], [4, 0]]", "8:17: elevator 'lift': [4, 0] is ' ', not a st"),
+        ("[[2, 0], [6, 0]]", "[[1, 1], [6, 0]]", "8:17: elevator 'lift': [1, 1] is 's', not a st"),
+        ("[[2, 1], [6, 1]]", "[[2, 1], [6, 0]]", "9:23: elevator 'other lift': [6, 0] is a cell"),
+        ("other lift", "lift", "9:3: elevator 'lift' is there twice"),
+    ],
+)
+def test_a_wrong_elevator_is_named(before, after, message):
+    with pytest.raises(lf.LayoutFileError) as error:
+        lf.parse(RIDES.replace(before, after, 1), "a.layout.yaml")
+    assert str(error.value).startswith(f"a.layout.yaml:{message}")
+
+
+FOUR = RIDES.replace("..s#", "..s# .. ..").replace("...A", "...A .. ..")
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        (RIDES, "robots with bodies take no elevators (lift, other lift)"),
+        (RIDES.replace("[6, 0]", "[3, 0]"), "elevator lift has two cells on one tier, [2, 0], [3"),
+        (FOUR.replace("[[2, 1], [6, 1]]", "[[10, 0], [13, 0]]"), "elevators do not lead from each"),
+    ],
+)
+def test_tiers_that_are_not_joined_are_faults(text, message):
+    texts = [fault.text for fault in file_check.faults(lf.parse(text))]
+    assert any(each.startswith(message) for each in texts)
 
 
 def test_a_file_that_is_none_is_refused(tmp_path):

@@ -2,6 +2,7 @@
 """The coordinator as a ROS node: the fleet of a running warehouse, driven over its topics."""
 
 import threading
+import time as wall_clock
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from warehouse_fleet.hosts.coordinator_messages import (
 )
 from warehouse_fleet.hosts.coordinator_services import CoordinatorServices, check_mode
 from warehouse_fleet.hosts.event_publisher import EventPublisher
+from warehouse_fleet.hosts.pace_watch import PaceWatch
 from warehouse_fleet.hosts.random_transports import RandomTransports
 from warehouse_fleet.hosts.warehouse_watch import WarehouseWatch, is_same_floor, request_map
 from warehouse_fleet.hosts.zone_keeper import ZoneKeeper
@@ -72,6 +74,7 @@ class CoordinatorNode:
         self._timeline = 0  # of the world, as reports have it
         self._kept = np.zeros(0, np.uint8)  # the robots' modes, as the world keeps them
         self._next_state = self._next_paths = 0.0
+        self._pace = PaceWatch()
         publish = rospy.Publisher
         self._ordering = publish("warehouse/fleet_orders", FleetOrders, queue_size=1000)
         self._state = publish("warehouse/coordinator", CoordinatorState, latch=True, queue_size=1)
@@ -121,6 +124,8 @@ class CoordinatorNode:
         self._keep_modes(was_gone & ~controller.robots.gone, reports)
         self._order(decision)
         self._publish_events(time)
+        if why := self._pace.decided(time, wall_clock.monotonic()):
+            rospy.logwarn(why)
         self._zones.advance(controller, time, state_is_due)
         if time >= self._next_paths and self._paths.get_num_connections():
             self._next_paths = time + PATHS_PERIOD

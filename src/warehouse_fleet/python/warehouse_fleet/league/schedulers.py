@@ -16,7 +16,8 @@ from warehouse_fleet.league.problem import Problem
 NOWHERE = -1  # no task
 MOST_TABLE = 4_000  # cells of a map with a table of all ways, of 64 MB
 MOST_PAIRS = 1_000_000  # robots times tasks that are weighed at once
-WEIGHT = 0.5  # of a task's length beside the way to it
+WEIGHT = 0.1  # of a task's length beside the way to it
+AT_WORK = 0.45  # of the passable cells: most robots with a task, as `pursuing` of the planner
 STAY = 1.0  # cells by which another robot has to be nearer to take over a task
 UNREACHABLE = 1e6  # cells
 
@@ -55,15 +56,17 @@ class RoundRobin:
 
 
 class Shortest:
-    """Gives tasks so that the ways to them and half of their own lengths are shortest in all.
+    """Gives tasks so that the ways to them and a part of their own lengths are shortest in all.
 
     Weighed are the tasks that are revealed, and that no robot has begun: of a robot that is on its
     way to a task, another one takes it over that is nearer, on fleets of a thousand. Ways are as
-    long as without other robots; on large maps they lead straight through walls.
+    long as without other robots; on large maps they lead straight through walls. On a crowded floor
+    only those robots get tasks that are nearest to one, as many as the planner lets pursue goals.
     """
 
     def __init__(self, problem: Problem) -> None:
         self._limit = int(problem.revealed)
+        self._most = max(1, int(AT_WORK * np.count_nonzero(problem.passable)))
         self._ways = _Ways(problem.passable)
         self._start = np.array([cells[0] for cells in problem.tasks])
         self._length = self._lengths(problem.tasks)
@@ -83,11 +86,12 @@ class Shortest:
     ) -> Iterator[tuple[int, int]]:
         """Yields a task for robots without, and others for robots that have not begun theirs."""
         self._reveal(finished)
-        if not (task == NOWHERE).any():
+        idle = self._next(np.flatnonzero(task == NOWHERE), cell)
+        if not len(idle):
             return
-        waits = np.flatnonzero((task == NOWHERE) | (errand == 0))
+        waits = np.union1d(idle, np.flatnonzero((task != NOWHERE) & (errand == 0)))
         if len(waits) * (len(waits) + len(self._open)) > MOST_PAIRS:
-            waits = np.flatnonzero(task == NOWHERE)
+            waits = idle
         held = task[waits]
         self._open += held[held != NOWHERE].tolist()
         while len(waits) and self._open:
@@ -103,16 +107,31 @@ class Shortest:
         self._open += range(self._revealed, end)
         self._revealed = end
 
+    def _next(self, idle: Cells, cell: Cells) -> Cells:
+        """Returns those of the idle robots that may begin a task now, in their order."""
+        room = max(0, self._most - (len(cell) - len(idle)))
+        if room >= len(idle) or not self._open:
+            return idle
+        tasks, many = np.array(self._open), max(1, MOST_PAIRS // len(self._open))
+        nearest = [
+            self._cost(cell[idle[k : k + many]], tasks).min(axis=1)
+            for k in range(0, len(idle), many)
+        ]
+        return np.sort(idle[np.argsort(np.concatenate(nearest), kind="stable")[:room]])
+
     def _assigned(self, robots: Cells, held: Cells, cell: Cells) -> list[tuple[int, int]]:
         """Returns robots with their tasks, and takes these off the open ones."""
         tasks = np.array(self._open)
-        rows = tasks % len(self._start)  # after the last task comes the first one again
-        cost = self._ways.between(cell[:, None], self._start[rows]) + WEIGHT * self._length[rows]
-        cost -= STAY * (held[:, None] == tasks)
+        cost = self._cost(cell, tasks) - STAY * (held[:, None] == tasks)
         robot, column = linear_sum_assignment(np.minimum(cost, UNREACHABLE))
         dealt = list(zip(robots[robot].tolist(), tasks[column].tolist()))
         self._open = np.delete(tasks, column).tolist()
         return dealt
+
+    def _cost(self, cell: Cells, tasks: Cells) -> NDArray[np.float64]:
+        """Returns what tasks cost robots in these cells, (robots, tasks) [cells]."""
+        rows = tasks % len(self._start)  # after the last task comes the first one again
+        return self._ways.between(cell[:, None], self._start[rows]) + WEIGHT * self._length[rows]
 
 
 class _Ways:

@@ -154,6 +154,7 @@ class TransportBook:
         self.inbound: collections.Counter[str] = collections.Counter()
         self.fetched: collections.Counter[str] = collections.Counter()
         self._by_number: dict[int, Transport] = {}
+        self._to_cells: dict[int, Transport] = {}  # by number: those that go to no station
         self._last = last
         self._events: list[TransportEvent] = []
 
@@ -182,13 +183,18 @@ class TransportBook:
         """Adds a transport to a cell, with the next number."""
         self._last += 1
         transport = Transport(self._last, shelf, station, cell, then, priority)
-        self._by_number[self._last] = self.of_unit[shelf] = transport
+        self._register(transport)
         return transport
+
+    def _register(self, transport: Transport) -> None:
+        self._by_number[transport.number] = self.of_unit[transport.shelf] = transport
+        if not transport.station:
+            self._to_cells[transport.number] = transport
 
     def restore(self, transport: Transport, robot: int = NOWHERE) -> None:
         """Adds a transport of another book, at its step, done by a robot of that index."""
         self._last = max(self._last, transport.number)
-        self._by_number[transport.number] = self.of_unit[transport.shelf] = transport
+        self._register(transport)
         if robot == NOWHERE:
             self.enqueue(transport)
             return
@@ -270,6 +276,7 @@ class TransportBook:
                 if asked.shelf == transport.shelf:
                     self.of_unit[asked.shelf] = asked
         self._by_number.pop(transport.number, None)
+        self._to_cells.pop(transport.number, None)
 
     def waiting(self, station: str) -> int:
         """Returns how many units are at a station or on the way to it."""
@@ -282,7 +289,7 @@ class TransportBook:
     def destinations(self) -> list[int]:
         """Returns the cells to which units are to be brought that go to no station."""
         going = (OPEN, FETCHING, READY, LIFTING, BRINGING, WAITING)
-        return [t.cell for t in self if not t.station and t.step in going]
+        return [t.cell for t in self._to_cells.values() if t.step in going]
 
     def kept_places(self) -> np.ndarray:
         """Returns the storage cells that are kept for units under way."""

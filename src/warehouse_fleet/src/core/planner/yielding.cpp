@@ -26,13 +26,12 @@ bool Yielding::choose(const std::vector<int>& waiting, const Candidates& candida
   const int robots = static_cast<int>(wishes.size());
   pursued_.resize(robots, kNowhere);
   int pursuing = 0;
-  std::vector<int> arrived;
+  std::vector<int> without;                 // a goal elsewhere
   std::vector<std::pair<int, int>> others;  // distance less wait of each, and the robot
   for (int robot = 0; robot < robots; ++robot) {
     const Wish& wish = wishes[robot];
-    if (wish.goal == kNowhere) continue;
-    if (wish.goal == wish.state.cell) {
-      arrived.push_back(robot);
+    if (wish.goal == kNowhere || wish.goal == wish.state.cell) {
+      without.push_back(robot);
     } else if (pursued_[robot] == wish.goal) {
       ++pursuing;
     } else {
@@ -48,8 +47,8 @@ bool Yielding::choose(const std::vector<int>& waiting, const Candidates& candida
     pursued_[other.second] = kNowhere;
     wishes[other.second].yields = true;
   });
-  const bool is_crowded = room < static_cast<std::ptrdiff_t>(others.size());
-  for (const int robot : arrived) wishes[robot].yields = is_crowded;
+  const bool is_crowded = robots > most_;
+  for (const int robot : without) wishes[robot].yields = is_crowded;
   return is_crowded;
 }
 

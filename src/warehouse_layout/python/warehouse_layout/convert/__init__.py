@@ -54,6 +54,7 @@ WRITERS = {
     ".svg": "drawing.draw",
     ".png": "drawing.draw",
 }
+WITHOUT_ELEVATORS = (".lif.json", ".lif", ".map")
 
 
 def convert(
@@ -105,7 +106,11 @@ def write(file: LayoutFile, path: Path) -> list[str]:
     path = Path(path)
     module = _module(path, WRITERS, "written")
     writer = module.draw if module.__name__.endswith(".draw") else module.write
-    return _checked(path, lambda: list(writer(file, path) or []))
+    notes = _checked(path, lambda: list(writer(file, path) or []))
+    if file.elevators and path.name.lower().endswith(WITHOUT_ELEVATORS):
+        names = ", ".join(elevator.name for elevator in file.elevators)
+        notes.append(f"elevators are left out, and tiers lie beside each other: {names}")
+    return notes
 
 
 def _with_notes(answer: Any) -> tuple[LayoutFile, list[str]]:

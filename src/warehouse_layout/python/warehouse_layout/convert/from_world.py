@@ -134,7 +134,12 @@ class _Drawing:
         file = file if centred else replace(file, at=plan.origin)
         self._notes += [f"belt {text}" for text in plan.without_lane]
         if self._hint and _same(self._hint, file, plan):
-            file = replace(file, floor=self._hint.floor, stations=self._hint.stations)
+            file = replace(
+                file,
+                floor=self._hint.floor,
+                stations=self._hint.stations,
+                elevators=self._hint.elevators,
+            )
         else:
             drawn, unsaid = arrows.draw(plan, floor)
             self._notes += unsaid

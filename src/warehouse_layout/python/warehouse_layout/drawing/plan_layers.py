@@ -77,6 +77,7 @@ class Layers:
         self._solids()
         self._lanes()
         self._arrows()
+        self._elevators()
         self._units()
         self._robots()
         for station in self._subject.stations:
@@ -115,6 +116,24 @@ class Layers:
         drawn = self._subject.drawn
         self._add(shapes.boxes(drawn.walls), "wall")
         self._add(shapes.boxes(drawn.belts), "belt")
+
+    def _elevators(self) -> None:
+        """Draws the cells of elevators with their names."""
+        for elevator in self._subject.file.elevators:
+            cells = np.array(elevator.cells)
+            self._add(shapes.placed(shapes.SQUARE, cells, 0.5), "elevator", zorder=3)
+            self._add(shapes.placed(shapes.UP_DOWN, cells, 0.4), "paper", zorder=3)
+            for column, row in elevator.cells:
+                self._axes.text(
+                    column,
+                    row + 0.55,
+                    elevator.name,
+                    ha="center",
+                    va="bottom",
+                    fontsize=name_size(self._cell) * 0.8,
+                    color=PLAN["elevator"],
+                    zorder=5,
+                )
 
     def _lanes(self) -> None:
         subject = self._subject

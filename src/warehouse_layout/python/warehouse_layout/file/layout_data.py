@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from warehouse_layout.floor.elevators import Elevator
 from warehouse_layout.floor.stations import PICK, REPLENISH
 
 SUFFIX = ".layout.yaml"
@@ -20,6 +21,7 @@ WALL, BELT, NO_FLOOR = "#", "=", " "
 ONE_WAY = ">^<v"  # by heading: quarter turns from +x
 ALONG_X, ALONG_Y = "-", "|"  # both ways along one axis
 SERVICE = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+STREETS = FLOOR + ONE_WAY + ALONG_X + ALONG_Y
 CHARACTERS = FLOOR + ONE_WAY + ALONG_X + ALONG_Y + STORAGE + PARKING + CHARGING
 CHARACTERS += KEEP_OUT + WALL + BELT + NO_FLOOR + SERVICE
 
@@ -46,6 +48,30 @@ class StationEntry:
     settings: Mapping[str, Any] = field(default_factory=dict)  # of its service: times, hours
 
 
+@dataclass(frozen=True)
+class ElevatorEntry:
+    """An elevator as a layout file describes it."""
+
+    name: str
+    cells: tuple[Cell, ...]  # one a tier
+    # From each of its cells to the next [s], or from each (row) to each (column).
+    seconds: float | tuple[tuple[float, ...], ...]
+
+    def of_plan(self, width: int) -> Elevator:
+        """Returns the Elevator of a plan with a width [cells]."""
+        cells = [row * width + column for column, row in self.cells]
+        if isinstance(self.seconds, tuple):
+            return Elevator(self.name, tuple(cells), self.seconds)
+        return Elevator.evenly(self.name, cells, self.seconds)
+
+    @classmethod
+    def of_elevator(cls, elevator: Elevator, width: int) -> "ElevatorEntry":
+        """Returns the entry for an Elevator of a plan with a width [cells]."""
+        cells = tuple((cell % width, cell // width) for cell in elevator.cells)
+        even = elevator.a_tier
+        return cls(elevator.name, cells, elevator.seconds if even is None else even)
+
+
 @dataclass(frozen=True, eq=False)
 class LayoutFile:
     """What a layout file says. Nothing in it is checked beyond the format."""
@@ -54,6 +80,7 @@ class LayoutFile:
     name: str = ""
     spacing: float = 1.0  # edge of a cell [m]
     stations: tuple[StationEntry, ...] = ()
+    elevators: tuple[ElevatorEntry, ...] = ()  # between tiers, which lie side by side
     storage_units: float | int | tuple[Cell, ...] = 0.85  # a float: share of the storage places
     robots: int | tuple[Cell, ...] = 0
     items: int = 0

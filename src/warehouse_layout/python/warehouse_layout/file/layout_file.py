@@ -31,6 +31,7 @@ from warehouse_layout.file.layout_data import (
     SUFFIX,
     WALL,
     Cell,
+    ElevatorEntry,
     LayoutFile,
     LayoutFileError,
     StationEntry,
@@ -58,6 +59,7 @@ __all__ = [
     "VERSION",
     "WALL",
     "Cell",
+    "ElevatorEntry",
     "LayoutFile",
     "LayoutFileError",
     "StationEntry",
@@ -107,6 +109,8 @@ def text_of(file: LayoutFile) -> str:
     out += [begin, *(f"  {line}" for line in lines)]
     if file.stations:
         out += ["stations:", *(f"  {s.key}: {_flow(_entry(s, file.floor))}" for s in file.stations)]
+    if file.elevators:
+        out += ["elevators:", *map(_elevator, file.elevators)]
     out += [f"storage_units: {_flow(_places(file.storage_units))}"]
     out += [f"robots: {_flow(_places(file.robots))}"]
     out += [f"items: {_stock(file)}" if file.stock else f"items: {file.items}"]
@@ -132,6 +136,13 @@ def _entry(station: StationEntry, floor: np.ndarray) -> dict[str, Any]:
         **({"exit": _places(station.exit)} if station.exit else {}),
         **{name: _setting(name, value) for name, value in station.settings.items()},
     }
+
+
+def _elevator(elevator: ElevatorEntry) -> str:
+    seconds = elevator.seconds
+    times = [list(row) for row in seconds] if isinstance(seconds, tuple) else seconds
+    entry = {"cells": _places(elevator.cells), "seconds": times}
+    return f"  {_flow(elevator.name)}: {_flow(entry)}"
 
 
 def _setting(name: str, value: Any) -> Any:

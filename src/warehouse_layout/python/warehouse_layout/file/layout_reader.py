@@ -3,20 +3,27 @@
 
 import difflib
 import math
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from typing import Any, NoReturn
 
 import numpy as np
 import yaml
 
 from warehouse_layout.file import layout_data as lf
-from warehouse_layout.file.layout_data import Cell, LayoutFile, LayoutFileError, StationEntry
+from warehouse_layout.file.layout_data import (
+    Cell,
+    ElevatorEntry,
+    LayoutFile,
+    LayoutFileError,
+    StationEntry,
+)
 from warehouse_layout.file.request import LIMITS
 from warehouse_layout.file.station_settings import SETTINGS, StationSettingError, check_setting
 
 VERSION = 1
 MOST_CELLS = 4_000_000
 LEAST_SPACING, MOST_SPACING = 0.1, 10.0  # [m], as the world takes them
+MOST_TIERS, MOST_RIDE = 100, 3600.0  # of an elevator; of one of its rides [s]
 
 Node = Any  # of PyYAML, which has no types: a ScalarNode, SequenceNode or MappingNode
 
@@ -26,6 +33,7 @@ _KEYS = (
     "spacing",
     "floor",
     "stations",
+    "elevators",
     "storage_units",
     "robots",
     "items",
@@ -58,6 +66,7 @@ class LayoutReader:
             name=self._text_of(top.get("name"), "name", ""),
             spacing=self._spacing(top.get("spacing")),
             stations=self._stations(top.get("stations")),
+            elevators=self._elevators(top.get("elevators")),
             storage_units=self._units(top.get("storage_units")),
             robots=self._robots(top.get("robots")),
             items=self._items(top),
@@ -340,6 +349,52 @@ class LayoutReader:
             except StationSettingError as error:
                 self._fail(entry[name], f"{label}: {error}")
         return out
+
+    # --- elevators
+
+    def _elevators(self, node: Node | None) -> tuple[ElevatorEntry, ...]:
+        out: list[ElevatorEntry] = []
+        for key, value in [] if node is None else self._pairs(node, "elevators"):
+            label = f"elevator '{key.value}'"
+            if any(key.value == each.name for each in out):
+                self._fail(key, f"{label} is there twice")
+            entry = self._mapping(value, ("cells", "seconds"), "an elevator")
+            for name in ("cells", "seconds"):
+                if name not in entry:
+                    self._fail(value, f"{label}: '{name}' is missing")
+            cells = self._landings(entry["cells"], label, out)
+            seconds = self._ride_times(entry["seconds"], label, len(cells))
+            out.append(ElevatorEntry(str(key.value), cells, seconds))
+        return tuple(out)
+
+    def _landings(
+        self, node: Node, label: str, others: Sequence[ElevatorEntry]
+    ) -> tuple[Cell, ...]:
+        """Returns the cells of an elevator: streets, and of no other one."""
+        cells = self._cells(node, f"{label}: cells", MOST_TIERS)
+        if len(cells) < 2:
+            self._fail(node, f"{label}: a cell on each of two tiers or more was expected")
+        for column, row in cells:
+            character = str(self._floor[row, column])
+            if character not in lf.STREETS:
+                self._fail(node, f"{label}: [{column}, {row}] is {character!r}, not a street")
+            if any((column, row) in other.cells for other in others):
+                self._fail(node, f"{label}: [{column}, {row}] is a cell of another elevator")
+        return cells
+
+    def _ride_times(
+        self, node: Node, label: str, count: int
+    ) -> float | tuple[tuple[float, ...], ...]:
+        """Returns the times of an elevator: one for each tier, or a table for all rides."""
+        what = f"{label}: seconds"
+        if not isinstance(node, yaml.SequenceNode):
+            return float(self._number(node, what, 0, MOST_RIDE))
+        rows = [row.value for row in node.value if isinstance(row, yaml.SequenceNode)]
+        if len(rows) != len(node.value) or [len(row) for row in rows] != [count] * count:
+            self._fail(node, f"{what}: a number, or a row of {count} for each cell was expected")
+        return tuple(
+            tuple(float(self._number(time, what, 0, MOST_RIDE)) for time in row) for row in rows
+        )
 
     # --- errors
 

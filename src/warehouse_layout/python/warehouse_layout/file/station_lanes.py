@@ -14,6 +14,7 @@ from warehouse_layout.file import drawn_floor
 from warehouse_layout.file import layout_file as lf
 from warehouse_layout.file.drawn_floor import DrawnFloor
 from warehouse_layout.file.layout_file import KINDS, Cell, LayoutFile, StationEntry
+from warehouse_layout.floor.elevators import tiers
 from warehouse_layout.floor.floor_plan import ALL_EXITS
 from warehouse_layout.floor.lane_finder import lanes_past
 from warehouse_layout.floor.stations import (
@@ -92,6 +93,7 @@ class _LaneSearch:
     def __init__(self, file: LayoutFile, drawn: DrawnFloor) -> None:
         self._file, self._drawn = file, drawn
         self._known: dict[tuple[bytes, ...], set[str]] = {}  # the last ones, by lanes
+        self._tiers = _tiers(file, drawn)
 
     def lane(self, entry: StationEntry, others: list[Station]) -> tuple[np.ndarray, int]:
         """Returns the cells of a lane (n,) int32 in driving order, and the index of the service
@@ -117,7 +119,9 @@ class _LaneSearch:
         """Returns the faults of the floor with these stations; the next one asks again."""
         lanes = tuple(station.cells.tobytes() for station in stations)
         if lanes not in self._known:
-            self._known = {lanes: _faults(self._file, self._drawn, stations)}
+            ways = drawn_floor.exits(self._file.floor, self._drawn, stations)
+            floors = [_floor(tier, ways, stations) for tier in self._tiers]
+            self._known = {lanes: {fault for floor in floors for fault in check_layout(floor)}}
         return self._known[lanes]
 
 
@@ -163,9 +167,13 @@ def _numbers(cells: Iterable[Cell], drawn: DrawnFloor) -> np.ndarray:
     return np.array([row * width + column for column, row in cells], np.int32)
 
 
-def _faults(file: LayoutFile, drawn: DrawnFloor, stations: list[Station]) -> set[str]:
-    ways = drawn_floor.exits(file.floor, drawn, stations)
-    return set(check_layout(_floor(drawn, ways, stations)))
+def _tiers(file: LayoutFile, drawn: DrawnFloor) -> list[DrawnFloor]:
+    """Returns the drawing's areas tier by tier: what is passable on each."""
+    if not file.elevators:
+        return [drawn]
+    elevators = [elevator.of_plan(file.shape[1]) for elevator in file.elevators]
+    tier = tiers(drawn.passable, elevators)
+    return [replace(drawn, passable=tier == number) for number in range(tier.max() + 1)]
 
 
 def _floor(drawn: DrawnFloor, ways: np.ndarray, stations: list[Station]) -> Floor:

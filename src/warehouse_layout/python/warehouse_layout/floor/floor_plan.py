@@ -7,7 +7,7 @@ A FloorPlan is read from a world, never kept beside it: plan_reader.
     planner = epibt(plan.floor(), Rules(following=False))
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from warehouse_layout._core import Floor, FloorError, check_layout
+from warehouse_layout.floor.elevators import Elevator, tiers
 from warehouse_layout.floor.stations import PICK, REPLENISH, Station, lane_mask, with_lanes
 
 __all__ = ["PICK", "REPLENISH", "FloorError", "FloorPlan", "Station"]
@@ -40,6 +41,7 @@ class FloorPlan:
     stations: tuple[Station, ...] = ()
     without_lane: tuple[str, ...] = ()  # texts: which belts have no station, and why
     charging: Sequence[int] | np.ndarray = ()  # cells in which robots are charged, ascending
+    elevators: tuple[Elevator, ...] = ()  # between tiers, which lie side by side
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -56,6 +58,11 @@ class FloorPlan:
     def lane(self) -> np.ndarray:
         """(h, w) bool: cells of stations' lanes."""
         return lane_mask(self.stations, self.shape)
+
+    @cached_property
+    def tier(self) -> np.ndarray:
+        """(h, w) int: the number of each cell's tier, from 0; -1 where no robot drives."""
+        return tiers(self.passable, self.elevators)
 
     def station(self, name: str) -> Station:
         """Returns the Station of that name. Raises KeyError if there is none."""
@@ -107,9 +114,16 @@ class FloorPlan:
         Checks the floor with the present obstacles, or without them if `obstructed` is False.
         """
         free = self.passable & ~self.obstructed if obstructed else self.passable
-        faults = check_layout(self.floor(free), *self.origin, self.spacing)
-        if faults:
-            raise FloorError("; ".join([*faults, *self._in_the_way(free)]))
+        for floor in self.floors(free):
+            if faults := check_layout(floor, *self.origin, self.spacing):
+                raise FloorError("; ".join([*faults, *self._in_the_way(free)]))
+
+    def floors(self, passable: np.ndarray | None = None) -> Iterator[Floor]:
+        """Yields the Floor of each tier: a fleet must be able to work on each by itself, as robots
+        that ride come back with others. `passable` (h, w) bool replaces that of the plan."""
+        passable = self.passable if passable is None else passable
+        for tier in range(self.tier.max(initial=0) + 1):
+            yield self.floor(passable & (self.tier == tier) if self.elevators else passable)
 
     def _in_the_way(self, free: np.ndarray) -> list[str]:
         """Returns a sentence about the obstacles on the marked floor, if there are any."""
@@ -130,6 +144,7 @@ class FloorPlan:
         stations: Iterable[Station],
         obstructed: np.ndarray | None = None,
         charging: np.ndarray | None = None,
+        elevators: Iterable[Elevator] = (),
     ) -> "FloorPlan":
         """Makes a FloorPlan whose arrays agree with each other.
 
@@ -150,4 +165,5 @@ class FloorPlan:
             obstructed=np.zeros_like(passable) if obstructed is None else obstructed & passable,
             stations=stations,
             charging=np.flatnonzero(charging & ~storage),
+            elevators=tuple(elevators),
         )

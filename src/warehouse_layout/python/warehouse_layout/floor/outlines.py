@@ -19,6 +19,10 @@ BOTH_WAYS = np.array(
 SQUARE = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
 BOLT = np.array([(0.2, 1), (-0.6, -0.15), (-0.05, -0.15), (-0.2, -1), (0.6, 0.15), (0.05, 0.15)])
 DISC = np.array([(np.cos(a), np.sin(a)) for a in np.arange(24) * np.pi / 12])
+UP_DOWN = np.array(  # which way an elevator goes
+    [(0, 1), (0.6, 0.35), (0.2, 0.35), (0.2, -0.35), (0.6, -0.35), (0, -1)]
+    + [(-0.6, -0.35), (-0.2, -0.35), (-0.2, 0.35), (-0.6, 0.35)]
+)
 TIP = np.array([(0.75, 0), (-0.25, 0.5), (-0.05, 0), (-0.25, -0.5)])  # which way a robot looks
 
 

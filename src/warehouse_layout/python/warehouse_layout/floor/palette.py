@@ -28,6 +28,7 @@ PLAN = {kind: light for kind, (light, _) in CELLS.items()} | {
     "stripe": "#c9c1b4",
     "replenish": "#7fb8d8",
     "lane": "#a8741a",
+    "elevator": "#7a5ba6",
     "robot": "#d8502a",
     "fault": "#c2182b",
 }

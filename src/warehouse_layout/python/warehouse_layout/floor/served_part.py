@@ -6,6 +6,7 @@ In this part a loaded robot gets from each cell to each other.
 
 from collections.abc import Sequence, Sized
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
@@ -58,7 +59,7 @@ def served_part(plan: FloorPlan) -> tuple[FloorPlan, LeftOut]:
     """
     passable, exits = plan.passable, plan.exits
     part = plan
-    while faults := layout_faults(part.floor()):
+    while faults := [*chain.from_iterable(map(layout_faults, part.floors()))]:
         passable, exits = passable.copy(), exits.copy()
         for kind, cells in faults:
             if not cells:

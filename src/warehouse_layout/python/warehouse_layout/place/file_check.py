@@ -3,6 +3,7 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
@@ -33,7 +34,11 @@ def faults(file: LayoutFile) -> list[Fault]:
     """Returns what hinders a fleet from working there; [] if nothing does."""
     drawn = drawn_floor.areas(file.floor)
     stations, lane_faults = station_lanes.of_file(file, drawn)
-    out = [*_spacing_faults(file), *(Fault(fault.text, fault.cells) for fault in lane_faults)]
+    out = [
+        *_spacing_faults(file),
+        *_rides(file),
+        *(Fault(fault.text, fault.cells) for fault in lane_faults),
+    ]
     out += _floor_faults(file, plan_of(file, drawn, stations))
     if not lane_faults:
         out += _placing_faults(file)
@@ -51,6 +56,21 @@ def _spacing_faults(file: LayoutFile) -> list[Fault]:
             is_of_bodies=True,
         )
     ]
+
+
+def _rides(file: LayoutFile) -> list[Fault]:
+    if not file.elevators:
+        return []
+    cells = tuple(cell for elevator in file.elevators for cell in elevator.cells)
+    return [Fault(no_rides([elevator.name for elevator in file.elevators]), cells, True)]
+
+
+def no_rides(names: Sequence[str]) -> str:
+    """Returns the sentence about elevators where robots have bodies."""
+    return (
+        f"robots with bodies take no elevators ({', '.join(names[:NAMED])}): simulate without"
+        " physics, as ideal robots take them, or make a layout of each tier"
+    )
 
 
 def _placing_faults(file: LayoutFile) -> list[Fault]:
@@ -74,8 +94,8 @@ def lacks(file: LayoutFile) -> list[Fault]:
 
 
 def _floor_faults(file: LayoutFile, plan: FloorPlan) -> list[Fault]:
-    out = []
-    for kind, cells in layout_faults(plan.floor()):
+    out = _elevator_faults(file, plan)
+    for kind, cells in chain.from_iterable(map(layout_faults, plan.floors())):
         numbers = np.array(cells, int)
         if not len(numbers):
             out.append(Fault("there is no street for a loaded robot: draw '.', or arrows"))
@@ -83,6 +103,31 @@ def _floor_faults(file: LayoutFile, plan: FloorPlan) -> list[Fault]:
             out.append(_pocket(file, plan) or _dead_end(numbers, plan))
         else:
             out += _cut_off(numbers, plan)
+    return out
+
+
+def _elevator_faults(file: LayoutFile, plan: FloorPlan) -> list[Fault]:
+    """Returns a Fault for each elevator that joins no tiers, and for tiers that none joins."""
+    out = []
+    groups: list[set[int]] = []
+    for entry, elevator in zip(file.elevators, plan.elevators):
+        tiers = [int(tier) for tier in plan.tier.flat[list(elevator.cells)]]
+        if len(set(tiers)) < len(tiers):
+            text = (
+                f"elevator {entry.name} has two cells on one tier, {_named(entry.cells)}: robots"
+                " drive from one to the other; a tier is a part of the drawing by itself"
+            )
+            out.append(Fault(text, entry.cells))
+        joined = [group for group in groups if group & set(tiers)]
+        groups = [group for group in groups if group not in joined]
+        groups.append(set(tiers).union(*joined))
+    if len(groups) > 1:
+        cells = tuple(entry.cells[0] for entry in file.elevators)
+        text = (
+            "elevators do not lead from each tier to each other one: give one of them a cell on"
+            f" both; they begin at {_named(cells)}"
+        )
+        out.append(Fault(text, cells))
     return out
 
 
@@ -99,7 +144,7 @@ def _pocket(file: LayoutFile, plan: FloorPlan) -> Fault | None:
         return None
     floor.flat[cells] = KEEP_OUT
     closed = plan_of(replace(file, floor=floor), drawn_floor.areas(floor), plan.stations)
-    if layout_faults(closed.floor()):
+    if any(map(layout_faults, closed.floors())):
         return None
     named = _cells(cells, plan)
     return Fault(

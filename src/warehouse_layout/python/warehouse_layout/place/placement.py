@@ -58,6 +58,7 @@ def plan_of(file: LayoutFile, drawn: DrawnFloor, stations: Sequence[Station]) ->
         exits=drawn_floor.exits(file.floor, drawn, list(stations)),
         stations=stations,
         charging=drawn.charging,
+        elevators=[elevator.of_plan(file.shape[1]) for elevator in file.elevators],
     )
 
 

@@ -16,6 +16,7 @@ from warehouse_fleet.transports.transport_book import (
     Transport,
     TransportEvent,
 )
+from warehouse_operations.fleets.ideal_lifts import Journey
 
 if TYPE_CHECKING:
     from warehouse_operations.fleets.ideal import IdealFleet
@@ -135,8 +136,11 @@ def time_left(trips: "Trips") -> dict[int, float]:
             continue
         _, about, robot, plan = event.argument
         if plan == robot.plan:
+            rest = robot.halt
+            if isinstance(about, Journey):
+                rest, about = rest + about.left, about.argument
             transport = about if isinstance(about, Transport) else about[0]
-            left[transport.number] = event.time - trips.time + robot.halt
+            left[transport.number] = event.time - trips.time + rest
     return left
 
 

@@ -44,14 +44,17 @@ class PacedTrips(Trips):
 
     pace = Pace()
 
-    def _schedule(
+    def schedule(
         self, delay: float, act: Callable[[Any], object], argument: Any, robot: Robot
     ) -> None:
+        """Schedules an act of a robot after a delay [s], which is stretched if it is a drive."""
+        super().schedule(self.stretched(delay, act), act, argument, robot)
+
+    def stretched(self, seconds: float, act: Callable[[Any], object]) -> float:
+        """Returns the time of a drive that ends with an act [s]."""
         if act.__name__ in LOADED:
-            delay *= self.pace.loaded
-        elif act.__name__ == UNLOADED:
-            delay *= self.pace.unloaded
-        super()._schedule(delay, act, argument, robot)
+            return seconds * self.pace.loaded
+        return seconds * self.pace.unloaded if act.__name__ == UNLOADED else seconds
 
     def resume(self, now: FleetNow, repair: Callable[[], float]) -> None:
         """Goes on with the transports of a fleet. repair: draws how long a broken robot still
@@ -153,7 +156,7 @@ class PacedTrips(Trips):
             planned = act, argument, robot, robot.plan
             self.queue.schedule(self.time + max(under_way.left, 0.0), self._act, planned)
         else:
-            self._schedule(seconds, act, argument, robot)
+            self.schedule(seconds, act, argument, robot)
 
     def _keep(self, place: int, robot: Robot) -> None:
         self.floor.free[place] = False

@@ -208,6 +208,21 @@ class IdealFleet(TransportRequests):
 
     # Figures.
 
+    @property
+    def elevators(self) -> dict[str, float]:
+        """Rides so far, the share of the elevators' time in them, and the mean wait before [s];
+        empty without elevators."""
+        lifts = self._trips.lifts.all
+        if not lifts:
+            return {}
+        rides = sum(lift.rides for lift in lifts)
+        return {
+            "elevator_rides": rides,
+            "elevator_ride_fraction": sum(lift.ridden for lift in lifts)
+            / max(self.time * len(lifts), 1e-9),
+            "elevator_wait_s": sum(lift.waited for lift in lifts) / max(rides, 1),
+        }
+
     def unit_cell(self, shelf_id: int) -> int | None:
         """Returns the cell where a unit stands; None while it is carried."""
         return self._floor.units.get(shelf_id)
@@ -219,9 +234,10 @@ class IdealFleet(TransportRequests):
     def passages(self) -> np.ndarray:
         """Returns the number of passes of loaded robots through each cell, (h, w)."""
         count = np.zeros(self.plan.passable.size)
-        for (station, cell, outbound), times in sorted(self._trips.ways.items()):
-            table = self.travel.loaded_from if outbound else self.travel.loaded_to
-            np.add.at(count, table(station).cells(cell), times)
+        for (end, cell, outbound, via), times in self._trips.ways.items():
+            table = self.travel.loaded_from(end) if outbound else self.travel.loaded_to(end)
+            for run in table.runs(cell, via):
+                np.add.at(count, run, times)
         return count.reshape(self.plan.passable.shape)
 
     def waiting_map(self) -> np.ndarray:

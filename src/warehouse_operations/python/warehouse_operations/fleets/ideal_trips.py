@@ -2,7 +2,7 @@
 """The trips of ideal robots: to the unit, lift, to the station, queue, service, back, lower."""
 
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -21,10 +21,12 @@ from warehouse_fleet.transports.transport_book import (
     Transport,
     TransportBook,
 )
+from warehouse_layout.floor.rides import JoinedTable, Leg, Ride
 from warehouse_operations.fleets.activities import ACTIVITIES
 from warehouse_operations.fleets.availability import Upkeep
 from warehouse_operations.fleets.consumption import Consumption, MassOfItems, Way
 from warehouse_operations.fleets.ideal_floor import IdealFloor, Lane
+from warehouse_operations.fleets.ideal_lifts import Lifts
 from warehouse_operations.stock.event_queue import EventQueue
 from warehouse_operations.stock.protocols import Hooks, Task
 from warehouse_operations.stock.travel import Table, Travel
@@ -70,8 +72,8 @@ class Trips:
     """Transports from their start to their end, each phase an event of `queue`.
 
     time: simulated [s]. book: all transports, with the events that they cause. distance_m: driven
-    by all robots. ways: how often each (service or end cell, other cell, outbound) was driven with
-    a load. arrive: is called with each transport whose unit has come to its destination.
+    by all robots. ways: how often each (service or end cell, other cell, outbound, ride) was driven
+    with a load. arrive: is called with each transport whose unit has come to its destination.
     """
 
     def __init__(
@@ -88,11 +90,12 @@ class Trips:
         self.book = TransportBook(kiva_ids, self, stations=floor.lanes)
         self.seconds = dict.fromkeys(ACTIVITIES, 0.0)
         self.arrive: Callable[[Transport], None] = lambda _transport: None
-        self.ways: Counter[tuple[int, int, bool]] = Counter()
+        self.ways: Counter[tuple[int, int, bool, Ride | None]] = Counter()
         self._idle = dict(enumerate(self.robots))  # by index
         self.upkeep: Upkeep | None = None
         self._consumption: Consumption | None = None
-        self._ways_loaded: dict[tuple[int, int, int], Way] = {}
+        self._ways_loaded: dict[tuple[int, int, bool, Ride | None], tuple[Way, ...]] = {}
+        self.lifts = Lifts(self, len(floor.plan.elevators))
         self._width = floor.plan.passable.shape[1]
         self._cells, self._driving = int(floor.plan.passable.sum()), 0  # robots
 
@@ -128,6 +131,7 @@ class Trips:
         transport = self.book.of_robot.get(robot.index)
         if transport and transport.step <= READY:
             robot.plan += 1
+            self.lifts.drop(robot, min(duration, TOWED))
             self.book.unassign(transport)
             self._free(robot)
             robot.there = self.time + duration
@@ -146,6 +150,7 @@ class Trips:
         robot.plan += 1
         robot.halt, robot.able = 0.0, 0.0
         self._leave_lane(transport, min(left, TOWED - DEAD))
+        self.lifts.drop(robot, min(left, TOWED - DEAD))
         if robot.place is not None:
             self.floor.clear(robot.place)
             robot.place = None
@@ -196,17 +201,25 @@ class Trips:
 
     def _drive_to_charger(self, upkeep: Upkeep, index: int, cells: list[int]) -> None:
         robot = self._idle[index]
+        cells = self._on_its_tier(robot, cells) or cells
         seconds, metres = self.travel.unloaded([robot.cell], cells)
         taken = np.array([cell != robot.cell and upkeep.is_taken(cell) for cell in cells])
         at = int((metres[0] + TAKEN * taken).argmin())
         self.distance_m += float(metres[0, at])
         begin = max(self.time, robot.there)
         robot.there = begin + float(seconds[0, at])
-        self._spend_unloaded(robot, cells[at])
+        self._spend_unloaded(robot, self.travel.unloaded_legs(robot.cell, cells[at]))
         robot.approach = Approach(robot.cell, begin, robot.there, float(metres[0, at]))
         robot.cell = cells[at]
         able = upkeep.begin(index, robot.cell, robot.there)
         self.queue.schedule(max(able, self.time), _wake, None)
+
+    def _on_its_tier(self, robot: Robot, cells: list[int]) -> list[int]:
+        """Returns the cells on a robot's tier: one without work rides no elevator to park."""
+        if not self.floor.plan.elevators:
+            return cells
+        tier = self.floor.plan.tier.flat
+        return [cell for cell in cells if tier[cell] == tier[robot.cell]]
 
     def _turn_off(self, robot: Robot) -> None:
         """Stops a robot on its way to a charger."""
@@ -214,7 +227,8 @@ class Trips:
         if self.upkeep and robot.approach and here != robot.cell:
             approach, rest = robot.approach, robot.there - max(self.time, robot.approach.begin)
             self.distance_m -= approach.metres * rest / (approach.there - approach.begin)
-            self._spend_unloaded(replace(robot, cell=here), robot.cell, back=True)
+            legs = self.travel.unloaded_legs(here, robot.cell)
+            self._spend_unloaded(replace(robot, cell=here), legs, back=True)
         robot.cell, robot.there, robot.approach = here, there, None
 
     def step_until(self, time: float) -> None:
@@ -261,36 +275,60 @@ class Trips:
         self.kinematics = kinematics
         self.travel = self.floor.travel = Travel(self.floor.plan, kinematics)
 
-    def _spend_unloaded(self, robot: Robot, to: int, back: bool = False) -> None:
+    def _spend_unloaded(self, robot: Robot, legs: Sequence[Leg], back: bool = False) -> None:
         """Takes the energy of a way without a unit, along the floor's axes, from the battery, or
         puts it back where that way is not driven after all."""
         if not self.upkeep or not self._consumption:
             return
-        spacing = self.floor.plan.spacing
-        way = Way.along_axes(robot.cell, to, self._width, spacing, robot.heading)
-        energy = self._consumption.drive(way, robot.heading, None, self._driving / self._cells)
-        self.upkeep.spend(robot.index, -energy if back else energy)
-        robot.heading = way.last or robot.heading
+        spacing, density = self.floor.plan.spacing, self._driving / self._cells
+        start = robot.cell
+        for leg in legs:
+            way = Way.along_axes(start, leg.end, self._width, spacing, robot.heading)
+            energy = self._consumption.drive(way, robot.heading, None, density)
+            self.upkeep.spend(robot.index, -energy if back else energy)
+            robot.heading = way.last or robot.heading
+            start = leg.ride.end if leg.ride else leg.end
+
+    def _drive_loaded(
+        self,
+        transport: Transport,
+        end: int,
+        other: int,
+        outbound: bool,
+        act: Callable[[Any], object],
+        argument: Any,
+    ) -> None:
+        """Begins the way with a unit from another cell to an end, or back if it is outbound."""
+        table = self.travel.loaded_from(end) if outbound else self.travel.loaded_to(end)
+        via = self.lifts.best(table.options(other))
+        self._spend_loaded(transport, table, (end, other, outbound, via))
+        legs, seconds = table.legs(other, end, via), float(table.seconds[other])
+        self.distance_m += sum(leg.metres for leg in legs)
+        self.ways[end, other, outbound, via] += 1
+        self._drive(seconds, legs, act, argument, self._driver(transport))
 
     def _spend_loaded(
-        self, transport: Transport, table: Table, end: int, other: int, outbound: int
+        self,
+        transport: Transport,
+        table: Table | JoinedTable,
+        key: tuple[int, int, bool, Ride | None],
     ) -> None:
-        """Takes the energy of a way with a unit, between a table's own cell and another, from the
-        battery."""
+        """Takes the energy of a way with a unit, by a key of `ways`, from the battery."""
         if not self.upkeep or not self._consumption:
             return
-        key = end, other, outbound
         if key not in self._ways_loaded:
             if len(self._ways_loaded) >= WAYS:
                 self._ways_loaded.clear()
-            cells = table.cells(other)
-            cells = cells[::-1] if outbound else cells
-            self._ways_loaded[key] = Way.along(cells, self.floor.plan.spacing)
-        way, robot = self._ways_loaded[key], self._driver(transport)
-        density = self._driving / self._cells
-        energy = self._consumption.drive(way, robot.heading, transport.shelf, density)
-        self.upkeep.spend(robot.index, energy)
-        robot.heading = way.last or robot.heading
+            _, other, outbound, via = key
+            runs = table.runs(other, via)
+            runs = [run[::-1] for run in runs[::-1]] if outbound else runs
+            spacing = self.floor.plan.spacing
+            self._ways_loaded[key] = tuple(Way.along(run, spacing) for run in runs)
+        robot, density = self._driver(transport), self._driving / self._cells
+        for way in self._ways_loaded[key]:
+            energy = self._consumption.drive(way, robot.heading, transport.shelf, density)
+            self.upkeep.spend(robot.index, energy)
+            robot.heading = way.last or robot.heading
 
     def _spend_in_lane(self, transport: Transport, lane: Lane) -> None:
         """Takes the energy of moving up cell by cell from the battery: a start and a stop for each
@@ -303,7 +341,26 @@ class Trips:
             transport.robot, ahead * self._consumption.start(spacing, transport.shelf)
         )
 
-    def _schedule(
+    def stretched(self, seconds: float, act: Callable[[Any], object]) -> float:
+        """Returns the time of a drive that ends with an act [s]; here as it is."""
+        return seconds
+
+    def _drive(
+        self,
+        seconds: float,
+        legs: Sequence[Leg],
+        act: Callable[[Any], object],
+        argument: Any,
+        robot: Robot,
+        wait: float = 0.0,
+    ) -> None:
+        """Schedules an act at the end of a way. seconds: of one without rides [s]."""
+        if len(legs) > 1:
+            self.lifts.begin(wait, legs, act, argument, robot)
+        else:
+            self.schedule(seconds, act, argument, robot)
+
+    def schedule(
         self, delay: float, act: Callable[[Any], object], argument: Any, robot: Robot
     ) -> None:
         """Schedules an act of a robot after a delay [s], later by its halts meanwhile."""
@@ -353,23 +410,24 @@ class Trips:
             return
         robots = [self._idle[index] for index in indices]
         starts = [self._start(robot) for robot in robots]
-        seconds, metres = self.travel.unloaded(
-            [self.floor.units[transport.shelf] for transport in waiting],
-            [cell for cell, _ in starts],
-        )
+        cells = np.array([self.floor.units[transport.shelf] for transport in waiting])
+        at = np.array([cell for cell, _ in starts])
+        seconds, _ = self.travel.unloaded(cells, at)
         # A robot that drives somewhere must arrive first.
         seconds += np.array([max(there - self.time, 0.0) for _, there in starts])
-        tasks = self._tasks(waiting)
-        for task, robot in self.hooks.match_robots(tasks, [r.kiva_id for r in robots], seconds):
-            self.distance_m += metres[task, robot]
+        tasks, changes = self._tasks(waiting), self.travel.changes(cells[:, None], at)
+        ids = [robot.kiva_id for robot in robots]
+        for task, robot in self.hooks.match_robots(tasks, ids, seconds + changes):
             self._assign(waiting[task], indices[robot], seconds[task, robot])
 
     def _start(self, robot: Robot) -> tuple[int, float]:
         """Returns the cell from which an idle robot can start, and the time of its arrival there
         [s]."""
-        approach = robot.approach
+        approach, tier = robot.approach, self.floor.plan.tier.flat
         if not approach or not self.time < robot.there == approach.there:
             return robot.cell, robot.there
+        if tier[approach.start] != tier[robot.cell]:
+            return robot.cell, robot.there  # it rides, and goes on to the end
         left = min((robot.there - self.time) / (approach.there - approach.begin), 1.0)
         here = _between(approach.start, robot.cell, 1 - left, self._width)
         return here, max(self.time, approach.begin)
@@ -393,12 +451,16 @@ class Trips:
         if self.upkeep:
             self._turn_off(robot)
             self.upkeep.leave(index)
-        self._spend_unloaded(robot, self.floor.units[transport.shelf])
-        robot.cell, robot.there = self.floor.units[transport.shelf], self.time + seconds
+        cell, wait = self.floor.units[transport.shelf], max(robot.there - self.time, 0.0)
+        via = self.lifts.best(self.travel.unloaded_options(robot.cell, cell))
+        legs = self.travel.unloaded_legs(robot.cell, cell, via)
+        self.distance_m += sum(leg.metres for leg in legs)
+        self._spend_unloaded(robot, legs)
+        robot.cell, robot.there = cell, self.time + seconds
         self.book.assign(transport, index)
         self.book.publish_event(transport, Kind.ASSIGNED)
         self._begin(robot, "to unit")
-        self._schedule(seconds, self._reach_unit, transport, robot)
+        self._drive(seconds, legs, self._reach_unit, transport, robot, wait)
 
     def _reach_unit(self, transport: Transport) -> None:
         if transport.number not in self.book:
@@ -409,7 +471,7 @@ class Trips:
         self._begin(robot, "lift")
         if self.upkeep and self._consumption:
             self.upkeep.spend(robot.index, self._consumption.lift(transport.shelf))
-        self._schedule(self.kinematics.lift, self._lift, transport, robot)
+        self.schedule(self.kinematics.lift, self._lift, transport, robot)
 
     def _lift(self, transport: Transport) -> None:
         home = self.floor.units.pop(transport.shelf)
@@ -421,11 +483,7 @@ class Trips:
             return
         self.book.go_on(transport, BRINGING)
         self._begin(self._driver(transport), "to station")
-        table = self.travel.loaded_to(transport.cell)
-        self._spend_loaded(transport, table, transport.cell, home, 0)
-        self.distance_m += table.metres[home]
-        self.ways[transport.cell, home, False] += 1
-        self._schedule(table.seconds[home], self._reach_end, transport, self._driver(transport))
+        self._drive_loaded(transport, transport.cell, home, False, self._reach_end, transport)
 
     def _reach_end(self, transport: Transport) -> None:
         self._driver(transport).cell = transport.cell
@@ -448,7 +506,7 @@ class Trips:
             return
         lane.serving = lane.queue.popleft()
         delay = max(lane.free_from - self.time, 0.0) + moving_up
-        self._schedule(delay, self._arrive, lane.serving, self._driver(lane.serving))
+        self.schedule(delay, self._arrive, lane.serving, self._driver(lane.serving))
 
     def _arrive(self, transport: Transport) -> None:
         if transport.step == STORING:  # was turned back
@@ -492,16 +550,14 @@ class Trips:
         cells = np.flatnonzero(free & np.isfinite(table.seconds))
         if not len(cells):
             self._begin(robot, "idle")
-            self._schedule(RETRY, self._store, transport, robot)
+            self.schedule(RETRY, self._store, transport, robot)
             return
-        place = int(self.hooks.choose_place(transport.shelf, cells, table.metres[cells]))
+        place = int(self.hooks.choose_place(transport.shelf, cells, table.distance[cells]))
         self.floor.free[place] = False
         robot.place = place
         self._begin(robot, "back")
-        self._spend_loaded(transport, table, robot.cell, place, 1)
-        self.distance_m += table.metres[place]
-        self.ways[robot.cell, place, True] += 1
-        self._schedule(table.seconds[place], self._lower, (transport, place), robot)
+        argument = transport, place
+        self._drive_loaded(transport, robot.cell, place, True, self._lower, argument)
 
     def free(self) -> np.ndarray:
         """Returns (cells,) bool: storage places where no unit stands or is to be brought."""
@@ -517,7 +573,7 @@ class Trips:
         robot.cell = place
         self.book.go_on(transport, DROPPING)
         self._begin(robot, "lift")
-        self._schedule(self.kinematics.lift, self._drop, argument, robot)
+        self.schedule(self.kinematics.lift, self._drop, argument, robot)
 
     def _drop(self, argument: tuple[Transport, int]) -> None:
         transport, place = argument
@@ -543,11 +599,11 @@ class Trips:
         self._begin(robot, "idle")
         self._idle[robot.index] = robot
         to = self.hooks.park(robot.kiva_id, robot.cell)
-        if to is not None and to != robot.cell:
+        if to is not None and to != robot.cell and self._on_its_tier(robot, [int(to)]):
             seconds, metres = self.travel.unloaded([robot.cell], [to])
             self.distance_m += float(metres[0, 0])
             begin = max(self.time, robot.there)
-            self._spend_unloaded(robot, int(to))
+            self._spend_unloaded(robot, self.travel.unloaded_legs(robot.cell, int(to)))
             robot.cell, robot.there = int(to), begin + float(seconds[0, 0])
 
 

@@ -32,6 +32,12 @@ ROWS: tuple[tuple[str, str, str, float, int], ...] = (
     ("executed_over_planned", "Driven time over planned time", "", 1, 3),
     ("real_time_factor", "Faster than real time", "times", 1, 1),
 )
+# The same, of floors with elevators.
+OF_ELEVATORS: tuple[tuple[str, str, str, float, int], ...] = (
+    ("elevator_rides", "Rides of elevators", "", 1, 0),
+    ("elevator_ride_fraction", "Elevators carry a robot for", "%", 100, 1),
+    ("elevator_wait_s", "Robot: wait for an elevator, mean", "s", 1, 1),
+)
 ACROSS = 4  # configurations in a table
 # Ideal robots have no traffic: there are no such figures to compare.
 OF_TRAFFIC = {"collisions", "blocked", "watchdog", "plan_ms.p99", "executed_over_planned"}
@@ -49,15 +55,15 @@ def table(groups: Sequence[Group]) -> str:
 
 
 def _part(groups: Sequence[Group], letters: Sequence[str]) -> str:
-    rows = [[words, *(cell(group, *row) for group in groups)] for words, row in _rows()]
+    rows = [[words, *(cell(group, *row) for group in groups)] for words, row in _rows(groups)]
     return page.table(["", *letters] if letters else [], rows, " ".join(["Figures", *letters]))
 
 
 def text(groups: Sequence[Group]) -> str:
     """Returns the figures of all groups for a terminal."""
-    width = max(len(words) for words, _ in _rows()) + 2
+    width = max(len(words) for words, _ in _rows(groups)) + 2
     lines = [" " * width + "".join(f"{group.label[:26]:>28}" for group in groups)]
-    for words, row in _rows():
+    for words, row in _rows(groups):
         cells = "".join(f"{cell(group, *row):>28}" for group in groups)
         lines.append(f"{words:<{width}}{cells}")
     return "\n".join(lines)
@@ -78,5 +84,8 @@ def number(estimate: Estimate, factor: float, digits: int, unit: str = "") -> st
     return f"{text} {unit}".strip()
 
 
-def _rows() -> list[tuple[str, Any]]:
-    return [(words, (kpi, *shown)) for kpi, words, *shown in ROWS]
+def _rows(groups: Sequence[Group]) -> list[tuple[str, Any]]:
+    name = OF_ELEVATORS[0][0]
+    rides = all(name in run.kpis for group in groups for run in group.runs)
+    rows = (*ROWS, *OF_ELEVATORS) if rides else ROWS
+    return [(words, (kpi, *shown)) for kpi, words, *shown in rows]

@@ -232,6 +232,8 @@ def _open_operations(description: Description, database: str | None = None) -> O
         _check_bundles(description.instance, site)
         world = None
         if description.physics:
+            if elevators := [elevator.name for elevator in site.plan.elevators]:
+                raise InstanceError(f"{description.instance}: {file_check.no_rides(elevators)}")
             if jams := _jams(description.instance, site):
                 raise InstanceError(jams)
             with _errors_as_ours():

@@ -94,6 +94,7 @@ def of_shift(
         "plan_ms": _planning(fleet.plan_ms),
         "executed_over_planned": fleet.executed_over_planned,
         "state_hash": context.state_hash(),
+        **getattr(fleet, "elevators", {}),
     } | _of_troubles(fleet, tally.items_picked)
 
 

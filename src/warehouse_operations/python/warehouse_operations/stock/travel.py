@@ -2,12 +2,13 @@
 """Travel times of robots without traffic, in closed form on a floor plan.
 
 A run of n cells takes n * spacing / speed plus one start and stop (speed / acceleration); a quarter
-turn takes its time, and a start and stop more. And the lead times of stations, as they were.
+turn takes its time, and a start and stop more. Between tiers, ways have rides of elevators
+(floor/rides.py). And the lead times of stations, as they were.
 """
 
 import math
 from collections import OrderedDict
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TypeVar
 
 import numpy as np
@@ -15,10 +16,14 @@ import numpy as np
 from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_layout._core import routes, ways
 from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor.rides import Chains, JoinedTable, Leg, Option, Ride, rides_of
 
 HEADINGS = 4
 TABLES = 400  # most tables kept; the least recently used is dropped
 PLACE_TABLES = 4000  # most tables of storage places: a floor of 50,000 cells has a thousand
+# By how much longer policies take a way with rides to be [s]: more than any drive, so that robots
+# and units change tiers only where nothing else is left, as by RAWSim-O's default.
+CHANGE = 1000.0
 
 _Key = TypeVar("_Key")
 _Value = TypeVar("_Value")
@@ -33,6 +38,11 @@ class Table:
         self.seconds, self.metres = seconds, metres
         self._cells, self._heading = cells, heading
 
+    @property
+    def distance(self) -> np.ndarray:
+        """What policies compare: metres; a way with rides counts as much longer."""
+        return self.metres
+
     def cells(self, cell: int) -> list[int]:
         """Returns the cells of the route between the table's cell and another, both included."""
         node, way = cell * HEADINGS + self._heading[cell], [cell]
@@ -40,6 +50,19 @@ class Table:
             if node // HEADINGS != way[-1]:
                 way.append(node // HEADINGS)
         return way
+
+    def options(self, cell: int) -> Iterator[Option]:
+        """Yields the ways to or from a cell with one ride: none."""
+        yield from ()
+
+    def runs(self, cell: int, via: Ride | None = None) -> list[list[int]]:
+        """Returns the cells of each drive between rides; here of one."""
+        return [self.cells(cell)]
+
+    def legs(self, cell: int, own: int, via: Ride | None = None) -> list[Leg]:
+        """Returns the drives and rides of the route between the table's own cell and another; here
+        the one drive."""
+        return [Leg(float(self.seconds[cell]), float(self.metres[cell]), own)]
 
 
 class Travel:
@@ -51,7 +74,9 @@ class Travel:
         # Storage places are ends of ways, never inside one.
         self._ends = np.asarray(plan.storage | plan.parking, np.uint8).ravel()
         self._forward, self._backward = _steps(plan, self._ends.astype(bool))
-        self._tables: OrderedDict[tuple[int, bool], Table] = OrderedDict()
+        self._tables: OrderedDict[tuple[int, bool], Table | JoinedTable] = OrderedDict()
+        self._rides = rides_of(plan.elevators)
+        self._of_landings: dict[tuple[int, bool], Table] = {}
         self._places = np.flatnonzero(plan.storage)
         self._place = np.full(plan.passable.size, -1, np.int32)  # index into them, by cell
         self._place[self._places] = np.arange(len(self._places))
@@ -61,17 +86,20 @@ class Travel:
         )
         turn = kinematics.quarter_turn + kinematics.start_stop
         self._costs = plan.spacing / kinematics.speed, turn  # of a step, of a quarter [s]
+        tier = plan.tier.ravel() if self._rides else np.zeros(0, int)
+        self._chains = Chains(self._rides, tier, self._along_axes) if self._rides else None
 
-    def loaded_from(self, cell: int) -> Table:
+    def loaded_from(self, cell: int) -> Table | JoinedTable:
         """Returns the routes of a loaded robot from a cell to all others."""
         return self._table(int(cell), True)
 
-    def loaded_to(self, cell: int) -> Table:
+    def loaded_to(self, cell: int) -> Table | JoinedTable:
         """Returns the routes of a loaded robot to a cell from all others."""
         return self._table(int(cell), False)
 
     def metres_to_places(self, cell: int, places: np.ndarray) -> np.ndarray:
-        """Returns the distances of a loaded robot from a cell to storage places, (n,) [m]."""
+        """Returns the distances of a loaded robot from a cell to storage places, (n,) [m]; those of
+        other tiers are much farther."""
         seconds, steps = self._of_storage(int(cell), True)
         of = self._place[places]
         return np.where(np.isfinite(seconds[of]), steps[of] * self.plan.spacing, np.inf)
@@ -92,6 +120,10 @@ class Travel:
         return _remembered(self._of_places, PLACE_TABLES, key, lambda: self._ways(cell, forward))
 
     def _ways(self, cell: int, forward: bool) -> tuple[np.ndarray, np.ndarray]:
+        if self._rides:
+            table = self._table(cell, forward)
+            steps = table.distance[self._places] / self.plan.spacing
+            return table.seconds[self._places], steps
         seconds, steps = self._numbered.ways(cell, forward, *self._costs)
         return np.where(self._places == cell, 0.0, self._from_standstill(seconds)), steps
 
@@ -104,16 +136,66 @@ class Travel:
 
         cells: (n,); to: (m,); both results: (n, m).
         """
-        cells, to = np.asarray(cells)[:, None], np.asarray(to)[None, :]
+        cells, to = np.asarray(cells), np.asarray(to)
+        if self._chains:
+            return self._chains.joined(cells, to)
+        return self._along_axes(cells[:, None], to[None, :])
+
+    def unloaded_options(self, cell: int, to: int) -> Iterator[Option]:
+        """Yields the ways of an unloaded robot between two cells with one ride, if they are on two
+        tiers."""
+        if self._chains:
+            yield from self._chains.options(cell, to)
+
+    def unloaded_legs(self, cell: int, to: int, via: Ride | None = None) -> list[Leg]:
+        """Returns the drives and rides of unloaded() between two cells; via: the only ride."""
+        if self._chains:
+            return self._chains.legs(cell, to, via)
+        seconds, metres = self._along_axes(np.array(cell), np.array(to))
+        return [Leg(float(seconds), float(metres), to)]
+
+    def apart(self, cell: int, cells: np.ndarray) -> np.ndarray:
+        """Returns the metres along the axes between a cell and others, (n,); much more to those of
+        another tier."""
+        dx, dy = cells % self.width - cell % self.width, cells // self.width - cell // self.width
+        metres = (np.abs(dx) + np.abs(dy)) * self.plan.spacing
+        return metres + self.changes(np.array(cell), cells) * self.kinematics.speed
+
+    def changes(self, cells: np.ndarray, to: np.ndarray) -> np.ndarray:
+        """Returns by how much longer policies take ways between cells to be [s]: CHANGE from one
+        tier to another, else 0."""
+        if not self._chains:
+            return np.zeros(np.broadcast_shapes(cells.shape, to.shape))
+        tier = self.plan.tier.ravel()
+        return np.where(tier[cells] != tier[to], CHANGE, 0.0)
+
+    def _along_axes(self, cells: np.ndarray, to: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Returns time [s] and length [m] of drives along both axes."""
         dx = np.abs(cells % self.width - to % self.width) * self.plan.spacing
         dy = np.abs(cells // self.width - to // self.width) * self.plan.spacing
         turns = 1.0 * ((dx > 0) | (dy > 0)) + ((dx > 0) & (dy > 0))  # to start, and at the corner
         run = self.kinematics.run
         return run(dx) + run(dy) + turns * self.kinematics.quarter_turn, dx + dy
 
-    def _table(self, cell: int, forward: bool) -> Table:
+    def _table(self, cell: int, forward: bool) -> Table | JoinedTable:
         key = cell, forward
-        return _remembered(self._tables, TABLES, key, lambda: self._search(cell, forward))
+        return _remembered(self._tables, TABLES, key, lambda: self._joined(cell, forward))
+
+    def _joined(self, cell: int, forward: bool) -> Table | JoinedTable:
+        table = self._search(cell, forward)
+        if not self._rides:
+            return table
+        change = CHANGE * self.kinematics.speed
+        return JoinedTable(
+            table, self._rides, lambda landing: self._of_landing(landing, forward), forward, change
+        )
+
+    def _of_landing(self, cell: int, forward: bool) -> Table:
+        """Returns the routes from a cell of an elevator to all others, or back, without rides."""
+        key = cell, forward
+        if key not in self._of_landings:
+            self._of_landings[key] = self._search(cell, forward)
+        return self._of_landings[key]
 
     def _search(self, cell: int, forward: bool) -> Table:
         graph = self._forward if forward else self._backward

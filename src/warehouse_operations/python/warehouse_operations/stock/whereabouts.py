@@ -8,7 +8,7 @@ import numpy as np
 from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_fleet.robots.robot_table import NOWHERE
 from warehouse_layout.floor.floor_plan import FloorPlan
-from warehouse_operations.stock.travel import Travel
+from warehouse_operations.stock.travel import CHANGE, Travel
 from warehouse_operations.stock.units_by_id import UnitCells
 
 WIDE = 10_000  # storage units above which distant ones are not brought to a station
@@ -40,8 +40,10 @@ class Whereabouts:
     @property
     def reach(self) -> float:
         """The longest detour of a unit to a station, against the nearest unit [s]: on a wide floor
-        a better unit always exists, far away."""
-        return REACH if len(self.units) > WIDE else np.inf
+        a better unit always exists, far away, and on two tiers on the other one."""
+        if len(self.units) > WIDE:
+            return REACH
+        return CHANGE / 2 if self.plan.elevators else np.inf
 
     def seconds_to(self, station: str, unit: int) -> float:
         """Returns the time [s] from a unit's place to a station's service cell; inf while it is
@@ -52,16 +54,16 @@ class Whereabouts:
         return float(self._travel.seconds_from_all(np.array([cell]), self._service[station])[0])
 
     def seconds_to_all(self, station: str, units: np.ndarray) -> np.ndarray:
-        """Returns seconds_to() of units, (n,) [s]."""
-        cells = self.cells.of(units)
-        seconds = self._travel.seconds_from_all(cells, self._service[station])
+        """Returns seconds_to() of units, (n,) [s]; from other tiers CHANGE more."""
+        cells, service = self.cells.of(units), self._service[station]
+        seconds = self._travel.seconds_from_all(cells, service)
+        seconds = seconds + self._travel.changes(cells, np.array(service))
         return np.where(cells == NOWHERE, np.inf, seconds)
 
     def apart(self, cell: int, cells: np.ndarray) -> np.ndarray:
-        """Returns the metres along the axes between a cell and others, (n,)."""
-        width, cells = self.plan.passable.shape[1], np.asarray(cells)
-        dx, dy = cells % width - cell % width, cells // width - cell // width
-        return (np.abs(dx) + np.abs(dy)) * self.plan.spacing
+        """Returns the metres along the axes between a cell and others, (n,); much more to those of
+        another tier."""
+        return self._travel.apart(cell, np.asarray(cells))
 
     def place_rank(self, cells: np.ndarray) -> np.ndarray:
         """Returns ranks of storage places, (n,): 0 nearest to a picking station, 1 farthest."""

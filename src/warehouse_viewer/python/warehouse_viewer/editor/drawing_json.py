@@ -4,7 +4,7 @@
 from typing import Any
 
 from warehouse_layout.file import layout_file
-from warehouse_layout.file.layout_file import LayoutFile, StationEntry
+from warehouse_layout.file.layout_file import ElevatorEntry, LayoutFile, StationEntry
 
 
 def of_file(file: LayoutFile) -> dict[str, Any]:
@@ -14,6 +14,7 @@ def of_file(file: LayoutFile) -> dict[str, Any]:
         "spacing": file.spacing,
         "floor": layout_file.lines_of(file.floor),
         "stations": [_station(station) for station in file.stations],
+        "elevators": [_elevator(elevator) for elevator in file.elevators],
         "storage_units": _places(file.storage_units),
         "is_share": isinstance(file.storage_units, float),  # in JSON 1.0 would be a count
         "robots": _places(file.robots),
@@ -37,6 +38,10 @@ def _station(station: StationEntry) -> dict[str, Any]:
         "exit": station.exit,
         "settings": dict(station.settings),
     }
+
+
+def _elevator(elevator: ElevatorEntry) -> dict[str, Any]:
+    return {"name": elevator.name, "cells": elevator.cells, "seconds": elevator.seconds}
 
 
 def _places(value: object) -> object:

@@ -15,7 +15,7 @@ export const besides = (a, b) => Math.abs(a[0] - b[0]) + Math.abs(a[1] - b[1]) =
 export class Drawing {
   constructor() {
     Object.assign(this, { left: 0, bottom: 0, width: 0, height: 0, cells: new Uint8Array(0) });
-    Object.assign(this, { name: '', spacing: 1, stations: [], units: 0.85, isShare: true });
+    Object.assign(this, { name: '', spacing: 1, stations: [], elevators: [], units: 0.85, isShare: true });
     // robots, units: a count, or a list of cells. items: null is four a storage unit.
     Object.assign(this, { robots: 0, items: null, stock: '', skus: '', policies: {}, measured: '', building: '', at: null });
     this.owners = null;

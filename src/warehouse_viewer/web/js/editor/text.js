@@ -25,6 +25,7 @@ export function jsonOf(drawing) {
     spacing: drawing.spacing,
     floor,
     stations: drawing.stations.map((s) => ({ ...s, service: moved(s.service), queue: places(s.queue), exit: places(s.exit) })),
+    elevators: drawing.elevators.map((e) => ({ ...e, cells: places(e.cells) })),
     storage_units: places(drawing.units),
     is_share: drawing.isShare,
     robots: places(drawing.robots),
@@ -52,6 +53,7 @@ export function drawingOf(json) {
   const { name, spacing, stock, skus = '', policies, measured = '', building } = json;
   Object.assign(out, { name, spacing, stock, skus, policies, measured, building, isShare: json.is_share });
   out.stations = json.stations.map((s) => ({ ...s, service: moved(s.service), queue: places(s.queue), exit: places(s.exit) }));
+  out.elevators = (json.elevators ?? []).map((e) => ({ ...e, cells: places(e.cells) }));
   out.units = places(json.storage_units);
   out.robots = places(json.robots);
   out.items = json.counts_items ? null : json.items;
@@ -73,6 +75,7 @@ export function textOf(drawing) {
   // YAML takes the first line's leading spaces for indentation, unless a number declares it.
   lines.push(json.floor[0].startsWith(NOTHING) ? 'floor: |2' : 'floor: |', ...json.floor.map((line) => `  ${line}`));
   if (json.stations.length) lines.push('stations:', ...json.stations.map((s) => `  ${keyText(s.key)}: ${flow(entryOf(s))}`));
+  if (json.elevators.length) lines.push('elevators:', ...json.elevators.map(({ name, ...e }) => `  ${keyText(name)}: ${flow(e)}`));
   lines.push(`storage_units: ${unitsOf(json)}`, `robots: ${flow(json.robots)}`);
   lines.push(json.stock ? `items: {stock: ${flow(json.stock)}${json.skus ? `, skus: ${flow(json.skus)}` : ''}}` : `items: ${json.items}`);
   if (Object.keys(json.policies).length) lines.push(`policies: ${flow(json.policies)}`);

@@ -37,6 +37,21 @@ TEST(FullFloor, MovesWithoutAnyFreeCellByRings) {
   for (const int since : errands.since) EXPECT_LT(since, 100);
 }
 
+TEST(FullFloor, RobotsWithoutAGoalGoWhereTheyArePushed) {
+  Rules rules;
+  rules.rings = true;
+  const int cells = static_cast<int>(cellsOf(kScattered, '.').size());
+  const int robots = 98 * cells / 100, with_goals = 30 * cells / 100;
+  Errands errands(kScattered, robots, rules);
+  std::fill(errands.fleet.goal.begin() + with_goals, errands.fleet.goal.end(), kNowhere);
+  const int first = errands.run(250), second = errands.run(250);
+  EXPECT_GT(first, with_goals);
+  EXPECT_GT(second, first / 2) << "throughput collapses";
+  for (int robot = 0; robot < with_goals; ++robot) {
+    EXPECT_LT(errands.since[robot], 250) << "robot " << robot;
+  }
+}
+
 TEST(FullFloor, MovesWithAFewFreeCellsWithoutRings) {
   Errands errands(kScattered, 110, {});
   const int first = errands.run(150), second = errands.run(150);

@@ -10,6 +10,7 @@ from instance_file import (
     write_configuration,
     write_hall_instance,
     write_instance,
+    write_tiers_instance,
 )
 
 from warehouse_layout import convert as formats
@@ -196,7 +197,7 @@ def test_an_instance_where_robots_could_jam_is_told_with_physics_and_without(tmp
     [
         ("</Instance>", "", r":\d+: no element found"),
         ("Instance", "Layout", "<Layout>; <Instance> was expected"),
-        ('ID="3" Tier="0"', 'ID="3" Tier="1"', "2 tiers"),
+        ('ID="3" Tier="0"', 'ID="3" Tier="1"', "Bot 3 is on Tier 1, which has no Waypoint"),
         ('MaxVelocity="1.5"', 'MaxVelocity="fast"', "Bot 0: MaxVelocity is 'fast'"),
         ('MaxVelocity="1.5"', 'MaxVelocity="2"', "bots of 2 kinds"),
         ("<Waypoint>7</Waypoint>", "<Waypoint>9999</Waypoint>", "has a path to 9999, which is not"),
@@ -211,6 +212,40 @@ def test_a_wrong_instance_is_told(tmp_path, old, new, message):
     assert old in text
     everywhere = old in ("Instance", 'PodStorageLocation="true"')
     path.write_text(text.replace(old, new) if everywhere else text.replace(old, new, 1))
+    with pytest.raises(InstanceError, match=message) as error:
+        read_instance(path)
+    assert str(error.value).startswith(str(path))
+
+
+LANDING, ABOVE = 450, 905  # waypoints of the elevator in a file of two tiers
+
+
+@pytest.mark.parametrize(
+    "old, new, message",
+    [
+        (f"{LANDING}/{ABOVE}/10", "a/b", r"Elevator 0: Timing is 'a/b'; a/b/s, the numbers"),
+        (f"{LANDING}/{ABOVE}/10", f"{ABOVE}/{LANDING}/9", f"no Timing from Waypoint {LANDING} to"),
+        (f"{LANDING}/{ABOVE}/10", f"{LANDING}/{ABOVE}/-1", f"Timing is '{LANDING}/{ABOVE}/-1'"),
+        ("<Waypoints><Waypoint>4", "<Waypoints><Waypoint>94", "Elevator 0 names Waypoint 9450: n"),
+        (
+            f"{LANDING}</Waypoint><Waypoint>{ABOVE}",
+            f"{LANDING}</Waypoint><Waypoint>{LANDING}",
+            "tw",
+        ),
+        (f"{LANDING}</Waypoint><Waypoint>{ABOVE}", "7</Waypoint><Waypoint>8", "on each of its ti"),
+        (f"<Waypoint>{ABOVE}</Waypoint></Waypoints>", "</Waypoints>", "no Elevator joins Tier 1"),
+        (
+            "<Waypoint>7</Waypoint>",
+            "<Waypoint>700</Waypoint>",
+            "Waypoints .* and 700 are on two ti",
+        ),
+    ],
+)
+def test_a_wrong_elevator_is_told(tmp_path, old, new, message):
+    path = write_tiers_instance(tmp_path / "a.xinst")
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new, 1))
     with pytest.raises(InstanceError, match=message) as error:
         read_instance(path)
     assert str(error.value).startswith(str(path))

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Waypoints of a RAWSim-O instance, snapped to the rows and columns of a grid."""
+"""Waypoints of a RAWSim-O instance, snapped to the rows and columns of a grid.
+
+Tiers lie side by side along x, the lowest number first, with GAP columns without floor between.
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -12,6 +15,8 @@ from warehouse_layout.convert.rawsim.xml_fields import InstanceError, PathName, 
 
 ON_A_LINE = 0.25  # of the spacing: waypoints this far apart may still be in one row
 MOST_CELLS = 4_000_000  # of a floor
+GAP = 3  # columns between tiers
+ALIKE = 0.01  # of the spacing: by how much the spacings of tiers may differ
 
 
 @dataclass
@@ -25,6 +30,7 @@ class Waypoint:
     queue: bool
     paths: list[str]  # numbers of the waypoints that follow
     station: tuple[str, str] | None = None  # ("OutputStation" or "InputStation", its ID)
+    tier: str = "0"
 
 
 def read_waypoints(path: PathName, root: Element) -> dict[str, Waypoint]:
@@ -46,6 +52,7 @@ def read_waypoints(path: PathName, root: Element) -> dict[str, Waypoint]:
             element.get("IsQueueWaypoint", "").lower() == "true",
             [(other.text or "").strip() for other in element.findall("Paths/Waypoint")],
             station,
+            element.get("Tier", "0"),
         )
     if not result:
         raise InstanceError(f"{path}: there is no Waypoint")
@@ -59,26 +66,29 @@ def read_waypoints(path: PathName, root: Element) -> dict[str, Waypoint]:
 
 
 class Grid:
-    """The rows and columns that waypoints form.
+    """The rows and columns that waypoints form, those of each tier by themselves.
 
-    columns, rows: indices by coordinate [m]. step_x, step_y: spacings [m]. width, height: [cells].
-    cell: y * width + x, by waypoint. Raises InstanceError.
+    width, height: of the whole floor [cells]. spacing: of the cells [m], the mean of both axes.
+    origin: the centre of the first cell, (x, y) [m]. cell: y * width + x, by waypoint. Raises
+    InstanceError.
     """
 
     def __init__(self, path: PathName, waypoints: Mapping[str, Waypoint]) -> None:
-        self.columns, self.step_x = _lines(sorted({waypoint.x for waypoint in waypoints.values()}))
-        self.rows, self.step_y = _lines(sorted({waypoint.y for waypoint in waypoints.values()}))
-        if not self.step_x and not self.step_y:
-            raise InstanceError(f"{path}: two waypoints or more were expected")
-        self.step_x, self.step_y = self.step_x or self.step_y, self.step_y or self.step_x
-        self.width = max(self.columns.values()) + 1
-        self.height = max(self.rows.values()) + 1
+        names = sorted({waypoint.tier for waypoint in waypoints.values()}, key=_by_number)
+        self._tiers = {
+            name: _Tier(path, [w for w in waypoints.values() if w.tier == name]) for name in names
+        }
+        first = self._tiers[names[0]]
+        self.spacing, self.origin = first.spacing, first.origin
+        self._left = self._side_by_side(path)
+        self.width = self._left[names[-1]] + self._tiers[names[-1]].width
+        self.height = max(tier.height for tier in self._tiers.values())
         if self.width * self.height > MOST_CELLS:
             raise InstanceError(
                 f"{path}: waypoints make a floor of {self.width} by {self.height} cells; "
                 f"{MOST_CELLS} cells at most were expected"
             )
-        self.cell = {n: self._cell(waypoint.x, waypoint.y) for n, waypoint in waypoints.items()}
+        self.cell = {n: self._cell(w.tier, w.x, w.y) for n, w in waypoints.items()}
         taken: dict[int, str] = {}
         for number, cell in self.cell.items():
             if cell in taken:
@@ -87,26 +97,56 @@ class Grid:
                 )
             taken[cell] = number
 
-    @property
-    def origin(self) -> tuple[float, float]:
-        """The centre of the first cell, (x, y) [m]."""
-        return min(self.columns), min(self.rows)
-
-    @property
-    def spacing(self) -> float:
-        """The spacing of the cells [m], the mean of both axes."""
-        return (self.step_x + self.step_y) / 2
-
     def cell_at(self, element: Element, path: PathName) -> int:
-        """Returns the cell of a bot or pod, in the nearest row and column."""
+        """Returns the cell of a bot or pod, in the nearest row and column of its tier."""
         x, y = number_of(path, element, "X"), number_of(path, element, "Y")
+        name = element.get("Tier", next(iter(self._tiers)))
+        if name not in self._tiers:
+            raise InstanceError(
+                f"{path}: {element.tag} {element.get('ID')} is on Tier {name}, which has no"
+                " Waypoint"
+            )
+        tier = self._tiers[name]
         return self._cell(
-            min(self.columns, key=lambda line: abs(line - x)),
-            min(self.rows, key=lambda line: abs(line - y)),
+            name,
+            min(tier.columns, key=lambda line: abs(line - x)),
+            min(tier.rows, key=lambda line: abs(line - y)),
         )
 
-    def _cell(self, x: float, y: float) -> int:
-        return self.rows[y] * self.width + self.columns[x]
+    def _side_by_side(self, path: PathName) -> dict[str, int]:
+        """Returns the first column of each tier."""
+        left, out = 0, {}
+        for name, tier in self._tiers.items():
+            if abs(tier.spacing - self.spacing) > ALIKE * self.spacing:
+                raise InstanceError(
+                    f"{path}: waypoints of Tier {name} are {tier.spacing:g} m apart, those of the"
+                    f" first {self.spacing:g} m; all alike was expected"
+                )
+            out[name] = left
+            left += tier.width + GAP
+        return out
+
+    def _cell(self, tier: str, x: float, y: float) -> int:
+        lines = self._tiers[tier]
+        return lines.rows[y] * self.width + self._left[tier] + lines.columns[x]
+
+
+class _Tier:
+    """The rows and columns of a tier: indices by coordinate [m]; its size in cells."""
+
+    def __init__(self, path: PathName, waypoints: Sequence[Waypoint]) -> None:
+        self.columns, step_x = _lines(sorted({waypoint.x for waypoint in waypoints}))
+        self.rows, step_y = _lines(sorted({waypoint.y for waypoint in waypoints}))
+        if not step_x and not step_y:
+            raise InstanceError(f"{path}: two waypoints or more were expected")
+        self.spacing = ((step_x or step_y) + (step_y or step_x)) / 2
+        self.width = max(self.columns.values()) + 1
+        self.height = max(self.rows.values()) + 1
+        self.origin = min(self.columns), min(self.rows)
+
+
+def _by_number(name: str) -> tuple[bool, int, str]:
+    return not name.isdecimal(), int(name) if name.isdecimal() else 0, name
 
 
 def _lines(values: Sequence[float]) -> tuple[dict[float, int], float]:

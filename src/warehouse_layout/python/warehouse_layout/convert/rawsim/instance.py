@@ -3,7 +3,8 @@
 
 Waypoints become cells: their places are snapped to the rows and columns that they form, whatever
 the spacing. A station's lane is its queue, from the far end to the station's own waypoint, and the
-queue waypoints after it. Units and robots are numbered from 1, in the file's order.
+queue waypoints after it. Units and robots are numbered from 1, in the file's order. Tiers lie side
+by side, and elevators lead from one to another.
 """
 
 from collections.abc import Mapping, Sequence
@@ -14,8 +15,10 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from warehouse_layout.convert.common import PathName
+from warehouse_layout.convert.rawsim.elevators import read_elevators
 from warehouse_layout.convert.rawsim.grid import Grid, Waypoint, read_waypoints
 from warehouse_layout.convert.rawsim.xml_fields import InstanceError, children, number_of, read_root
+from warehouse_layout.floor.elevators import Elevator
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.stations import PICK, REPLENISH, STEPS, Station
 
@@ -37,13 +40,13 @@ class Instance:
 def read_floor(path: PathName) -> Instance:
     """Returns the Instance of an .xinst file. Raises InstanceError."""
     root = read_root(path, "Instance")
-    _single_tier(path, root)
     waypoints = read_waypoints(path, root)
     grid = Grid(path, waypoints)
     pods, bots = children(root, "Pods", "Pod"), children(root, "Bots", "Bot")
     stations, elements = _stations(path, root, waypoints, grid)
-    paths = _paths(path, waypoints, grid)
-    plan = _plan(waypoints, grid, stations, paths)
+    elevators = read_elevators(path, root, waypoints, grid)
+    paths = _paths(path, waypoints, grid, elevators)
+    plan = _plan(waypoints, grid, stations, paths, elevators)
     units = {i: grid.cell_at(pod, path) for i, pod in enumerate(pods, 1)}
     for pod, cell in zip(pods, units.values()):
         if not plan.storage.flat[cell]:
@@ -57,12 +60,6 @@ def read_floor(path: PathName) -> Instance:
 
 def _id(path: PathName, element: Element) -> int:
     return int(number_of(path, element, "ID")) + 1
-
-
-def _single_tier(path: PathName, root: Element) -> None:
-    tiers = {element.get("Tier") for element in root.iter() if element.get("Tier") is not None}
-    if len(tiers) > 1:
-        raise InstanceError(f"{path}: {len(tiers)} tiers; robots here drive on one floor")
 
 
 def _stations(
@@ -115,12 +112,24 @@ def _lane(
         lane.append(after[0])
 
 
-def _paths(path: PathName, waypoints: Mapping[str, Waypoint], grid: Grid) -> np.ndarray:
+def _paths(
+    path: PathName,
+    waypoints: Mapping[str, Waypoint],
+    grid: Grid,
+    elevators: Sequence[Elevator],
+) -> np.ndarray:
     exits = np.zeros((grid.height, grid.width), np.uint8)
+    rides = {(start, end) for elevator in elevators for start, end, _ in elevator.rides()}
     headings = {dx + dy * grid.width: heading for heading, (dx, dy) in enumerate(STEPS)}
     for number, waypoint in waypoints.items():
         cell = grid.cell[number]
         for other in waypoint.paths:
+            if (cell, grid.cell[other]) in rides:
+                continue
+            if waypoint.tier != waypoints[other].tier:
+                raise InstanceError(
+                    f"{path}: Waypoints {number} and {other} are on two tiers, and of no Elevator"
+                )
             heading = headings.get(grid.cell[other] - cell)
             if heading is None:
                 raise InstanceError(
@@ -131,7 +140,11 @@ def _paths(path: PathName, waypoints: Mapping[str, Waypoint], grid: Grid) -> np.
 
 
 def _plan(
-    waypoints: Mapping[str, Waypoint], grid: Grid, stations: Sequence[Station], exits: np.ndarray
+    waypoints: Mapping[str, Waypoint],
+    grid: Grid,
+    stations: Sequence[Station],
+    exits: np.ndarray,
+    elevators: Sequence[Elevator],
 ) -> FloorPlan:
     passable, storage = np.zeros(exits.shape, bool), np.zeros(exits.shape, bool)
     for number, waypoint in waypoints.items():
@@ -145,6 +158,7 @@ def _plan(
         parking=np.zeros(exits.shape, bool),
         exits=exits,
         stations=stations,
+        elevators=elevators,
     )
 
 

@@ -12,7 +12,7 @@ from warehouse_layout.convert.rawsim.instance import Instance, read_floor
 from warehouse_layout.convert.rawsim.xml_fields import InstanceError, number_of
 from warehouse_layout.file import items as shelves
 from warehouse_layout.file import layout_file as lf
-from warehouse_layout.file.layout_file import Cell, LayoutFile, StationEntry
+from warehouse_layout.file.layout_file import Cell, ElevatorEntry, LayoutFile, StationEntry
 from warehouse_layout.file.layout_reader import LEAST_SPACING, MOST_SPACING
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.stations import PICK, Station
@@ -38,6 +38,9 @@ def read(path: PathName) -> tuple[LayoutFile, list[str]]:
         name=instance.name,
         spacing=round(plan.spacing, 4),
         stations=tuple(_entry(path, instance, station) for station in plan.stations),
+        elevators=tuple(
+            ElevatorEntry.of_elevator(elevator, plan.width) for elevator in plan.elevators
+        ),
         storage_units=_cells(instance.units.values(), plan),
         robots=_cells(instance.robots.values(), plan),
         items=_items(path, instance),

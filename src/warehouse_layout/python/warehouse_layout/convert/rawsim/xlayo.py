@@ -118,7 +118,10 @@ def _parameters(numbers: _Numbers) -> Parameters:
 def _one_tier(numbers: _Numbers) -> None:
     elevators = sum(_at_sides(numbers, "NElevators", {}).values())
     if numbers.count("TierCount", 1) != 1 or elevators:
-        numbers.fail("TierCount above 1, or elevators; robots here drive on one floor")
+        numbers.fail(
+            "TierCount above 1, or elevators; one tier was expected: save the instance that"
+            " RAWSim-O makes of it (.xinst), whose tiers and elevators are read"
+        )
 
 
 def _at_sides(numbers: _Numbers, name: str, default: dict[str, int]) -> dict[str, int]:
