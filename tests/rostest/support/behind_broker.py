@@ -155,7 +155,7 @@ class BrokerCase(unittest.TestCase):
         if number not in fleet.kiva_id:
             return {}
         i = list(fleet.kiva_id).index(number)
-        names = ("x", "y", "vx", "vy", "status", "shelf_id", "path_id", "charge")
+        names = ("x", "y", "yaw", "vx", "vy", "status", "shelf_id", "path_id", "charge")
         failures = bytes(fleet.failures)[i]
         return {name: getattr(fleet, name)[i] for name in names} | {"failures": failures}
 
