@@ -7,8 +7,6 @@ from itertools import permutations
 
 import numpy as np
 
-from warehouse_layout.floor.stations import STEPS
-
 NO_TIER = -1
 
 
@@ -51,30 +49,13 @@ def tiers(passable: np.ndarray, elevators: Sequence[Elevator]) -> np.ndarray:
     first.
     """
     out = np.where(passable, 0, NO_TIER)
+    if not elevators:
+        return out
+    from scipy import ndimage
+
+    parts, _ = ndimage.label(passable)
     cells = sorted({cell for elevator in elevators for cell in elevator.cells})
-    count = 0
-    done = np.zeros(passable.shape, bool)
-    for cell in cells:
-        if done.flat[cell] or not passable.flat[cell]:
-            continue
-        part = _connected(passable, cell)
-        out[part] = count
-        done |= part
-        count += 1
-    return out
-
-
-def _connected(passable: np.ndarray, cell: int) -> np.ndarray:
-    """Returns the passable cells that are connected with one, (h, w) bool."""
-    height, width = passable.shape
-    out = np.zeros(passable.shape, bool)
-    out.flat[cell] = True
-    edge = [cell]
-    while edge:
-        row, column = divmod(edge.pop(), width)
-        for dx, dy in STEPS:
-            x, y = column + dx, row + dy
-            if 0 <= x < width and 0 <= y < height and passable[y, x] and not out[y, x]:
-                out[y, x] = True
-                edge.append(y * width + x)
+    labels = dict.fromkeys(parts.flat[cell] for cell in cells if passable.flat[cell])
+    for number, label in enumerate(labels):
+        out[parts == label] = number
     return out

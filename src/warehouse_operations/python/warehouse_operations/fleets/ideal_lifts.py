@@ -70,7 +70,7 @@ class Journey:
 
 @dataclass(eq=False)
 class Lift:
-    """An elevator: who rides, who waits, and what it did so far."""
+    """The robots that ride and wait for an elevator, and the figures of its rides so far."""
 
     queue: deque[Journey] = field(default_factory=deque)
     riding: Journey | None = None  # from when the robot may move up into it

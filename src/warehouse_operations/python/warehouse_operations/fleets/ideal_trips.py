@@ -302,10 +302,10 @@ class Trips:
         table = self.travel.loaded_from(end) if outbound else self.travel.loaded_to(end)
         via = self.lifts.best(table.options(other))
         self._spend_loaded(transport, table, (end, other, outbound, via))
-        legs, seconds = table.legs(other, end, via), float(table.seconds[other])
+        legs = table.legs(other, end, via)
         self.distance_m += sum(leg.metres for leg in legs)
         self.ways[end, other, outbound, via] += 1
-        self._drive(seconds, legs, act, argument, self._driver(transport))
+        self._drive(legs, act, argument, self._driver(transport))
 
     def _spend_loaded(
         self,
@@ -347,18 +347,17 @@ class Trips:
 
     def _drive(
         self,
-        seconds: float,
         legs: Sequence[Leg],
         act: Callable[[Any], object],
         argument: Any,
         robot: Robot,
         wait: float = 0.0,
     ) -> None:
-        """Schedules an act at the end of a way. seconds: of one without rides [s]."""
+        """Schedules an act at the end of a way that begins after a wait [s]."""
         if len(legs) > 1:
             self.lifts.begin(wait, legs, act, argument, robot)
         else:
-            self.schedule(seconds, act, argument, robot)
+            self.schedule(wait + legs[0].seconds, act, argument, robot)
 
     def schedule(
         self, delay: float, act: Callable[[Any], object], argument: Any, robot: Robot
@@ -423,10 +422,10 @@ class Trips:
     def _start(self, robot: Robot) -> tuple[int, float]:
         """Returns the cell from which an idle robot can start, and the time of its arrival there
         [s]."""
-        approach, tier = robot.approach, self.floor.plan.tier.flat
+        approach = robot.approach
         if not approach or not self.time < robot.there == approach.there:
             return robot.cell, robot.there
-        if tier[approach.start] != tier[robot.cell]:
+        if not self._on_its_tier(robot, [approach.start]):
             return robot.cell, robot.there  # it rides, and goes on to the end
         left = min((robot.there - self.time) / (approach.there - approach.begin), 1.0)
         here = _between(approach.start, robot.cell, 1 - left, self._width)
@@ -460,7 +459,7 @@ class Trips:
         self.book.assign(transport, index)
         self.book.publish_event(transport, Kind.ASSIGNED)
         self._begin(robot, "to unit")
-        self._drive(seconds, legs, self._reach_unit, transport, robot, wait)
+        self._drive(legs, self._reach_unit, transport, robot, wait)
 
     def _reach_unit(self, transport: Transport) -> None:
         if transport.number not in self.book:

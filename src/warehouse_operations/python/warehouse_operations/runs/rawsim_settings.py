@@ -75,8 +75,9 @@ DONE: dict[str, str | float] = {
 
 @dataclass(frozen=True)
 class ShiftSettings:
-    """The part of a settings file that a shift uses; None: not in the file."""
+    """The part of a settings file that a shift uses, and its `Name`; None: not in the file."""
 
+    name: str = ""
     orders: str = "fill"
     policies: dict[str, Any] = field(default_factory=dict)
     duration_s: float | None = None
@@ -106,6 +107,7 @@ def read_settings(path: PathName) -> ShiftSettings:
         }
     seed = text_of(path, root, "Seed", None)
     return ShiftSettings(
+        root.findtext("Name", ""),
         orders,
         {"replenishment": {"name": "threshold", **options}} if options else {},
         text_of(path, root, "SimulationDuration", None),

@@ -137,12 +137,14 @@ def remarks(description: Description) -> list[str]:
     Raises one of ERRORS.
     """
     sentences: list[str] = []
-    if description.settings:
-        sentences += read_settings(description.settings).not_followed
+    settings = read_settings(description.settings) if description.settings else None
+    if settings:
+        sentences += settings.not_followed
     if description.instance:
-        sentences += _left_out(description)
-    if description.instance and not description.physics:
-        jams = _jams(description.instance, read_instance(description.instance))
+        site = read_instance(description.instance)
+        chosen = _of_settings(site, settings) if settings else site
+        sentences += _left_out(description.instance, chosen)
+        jams = "" if description.physics else _jams(description.instance, site)
         sentences += (
             [f"{jams}; ideal robots, which pass through each other, work there"] if jams else []
         )
@@ -159,17 +161,14 @@ def _of_bodies(file: LayoutFile) -> list[str]:
     return [fault.text for fault in faults] if all(fault.is_of_bodies for fault in faults) else []
 
 
-def _left_out(description: Description) -> list[str]:
+def _left_out(path: str, site: Site) -> list[str]:
     """Returns a sentence about SKUs of an instance that no pod holds a bundle of."""
-    site = read_instance(description.instance)
-    if description.settings:
-        site = _of_settings(site, read_settings(description.settings))
     goods = site.goods
     if not goods or len(goods.skus) == len(goods.kinds.weights):
         return []
     count, most = len(goods.kinds.weights), max(goods.limits.values(), default=0.0)
     return [
-        f"{description.instance}: {count - len(goods.skus)} of {count} SKUs are left out: no pod"
+        f"{path}: {count - len(goods.skus)} of {count} SKUs are left out: no pod"
         f" holds a bundle of them, at a Capacity of {most:g} at most; RAWSim-O ends with an error"
         " where it draws one at the begin"
     ]
