@@ -46,8 +46,8 @@
 #include "ros/services/warehouse/visualization_topics.h"
 #include "ros/simulation/simulation_thread.h"
 #include "ros/transport/callback_thread.h"
-#include "ros/transport/listen_backlog.h"
 #include "ros/transport/publish_queue.h"
+#include "ros/transport/server_socket.h"
 #include "ros/transport/subscriber_counts.h"
 #include "ros/transport/unadvertise.h"
 #include "settings.h"
@@ -96,7 +96,7 @@ void announce(const kiva::World& world, const Settings& settings, double rtf) {
 }
 
 int run(ros::NodeHandle& root, ros::NodeHandle& node) {
-  raiseListenBacklog();
+  tuneServerSocket();
   if (!ros::param::has("/use_sim_time")) ros::param::set("/use_sim_time", true);
   Settings settings = readSettings(node);
   const kiva::WorldDescription description = load(settings);
