@@ -30,6 +30,7 @@
 #include "ros/services/models/spawn_services.h"
 #include "ros/services/models/state_services.h"
 #include "ros/services/simulation/checkpoint_services.h"
+#include "ros/services/simulation/pace_topic.h"
 #include "ros/services/simulation/performance_topic.h"
 #include "ros/services/simulation/physics_services.h"
 #include "ros/services/simulation/simulation_services.h"
@@ -127,6 +128,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   JointServices joint_services(node, simulation);
   LightServices light_services(node, simulation);
   PhysicsServices physics_services(node, world, simulation);
+  PaceTopic pace_topic(root, simulation);
   PerformanceTopic performance_topic(node, simulation);
   VisualizationTopics visualization_topics(root, simulation);
   ModelSources sources(settings.world_file, description);
