@@ -232,3 +232,30 @@ def test_a_robot_waits_for_a_broken_one_in_the_only_way_to_its_station(begin):
     waiting = Waiting(traffic, fleet.controller.transports.book)
     assert dict(waiting.long())[1] == "behind kiva1, which is broken"
     assert traffic.watchdog.count == 0
+
+
+def test_a_robot_waits_for_a_broken_one_that_cuts_it_off(begin):
+    fleet = begin()
+    unit = unit_above(1)
+    assert fleet.controller.transports.submit(unit, STATION).accepted
+    for _ in range(5):
+        fleet.tick()
+    fleet.reports["shelf_id"][1] = unit
+    fleet.tick()
+    assert fleet.step() == Step.BRINGING
+    fleet.put(0, only_way_on(WHERE.robots[2]))
+    fleet.reports["failures"][0] = 1 << FailureKind.MOTOR
+    for _ in range(700):
+        fleet.tick()
+    traffic = fleet.controller.traffic
+    assert traffic.all_ahead().tolist() == [NOWHERE, 0]
+    waiting = Waiting(traffic, fleet.controller.transports.book)
+    assert dict(waiting.long())[1] == "behind kiva1, which is broken"
+    assert traffic.watchdog.count == 0
+
+
+def only_way_on(cell):
+    """The only cell to which a loaded robot can drive from another."""
+    ahead = np.asarray(PLAN.floor().edges(True))[cell]
+    (only,) = ahead[ahead != NOWHERE]
+    return int(only)

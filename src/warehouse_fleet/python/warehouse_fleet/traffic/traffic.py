@@ -18,6 +18,7 @@ from warehouse_fleet.planners.plan_loop import PlanLoop
 from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_fleet.robots.robot_table import NOWHERE, Reports, RobotTable
 from warehouse_fleet.traffic.closed_zones import ClosedZones
+from warehouse_fleet.traffic.cut_off import CutOff
 from warehouse_fleet.traffic.obstacles import ObstacleLog
 from warehouse_fleet.traffic.people import zone_around
 from warehouse_fleet.traffic.station_ways import StationWays
@@ -33,6 +34,7 @@ MANUAL, OUT_OF_SERVICE, IDLE = (
 )
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
 MAP_PERIOD = 1.0  # time between two reads of the world's map [s]
+STANDS = 5.0  # after which the cause is looked up why a robot has no way [s]
 STAYS = 2.5  # an obstacle is assumed to stay this long after it was seen [s]
 
 
@@ -101,6 +103,7 @@ class Traffic:
         for station in plan.stations:
             self._after[station.cells[:-1]] = station.cells[1:]
         self._ways = StationWays(plan)
+        self._cut_off = CutOff(self.floor)
         self._next_map = 0.0
         self.obstacles = ObstacleLog()
         self.people_zone = np.zeros(0, np.int32)  # cells where people are or are about to be
@@ -168,8 +171,8 @@ class Traffic:
 
     def all_ahead(self) -> np.ndarray:
         """Returns, (n,), the robot that each robot waits for: by the plan, because it holds the
-        next cell of the lane, or because it stands where this one has to go, or in the only way to
-        the station there; or NOWHERE."""
+        next cell of the lane, or because it stands where this one has to go, or in the only way
+        there; or NOWHERE."""
         robots = self.robots
         ahead = robots.waits_for.copy()
         after = np.where(robots.cell != NOWHERE, self._after[robots.cell], NOWHERE)
@@ -177,6 +180,7 @@ class Traffic:
         by = self._execution.holders(after[asks])
         ahead[asks] = np.where(by != asks, by, NOWHERE)  # it may hold that cell itself
         self._look_for_barring(ahead)
+        self._look_for_cutting(ahead)
         return ahead
 
     def _look_for_barring(self, ahead: np.ndarray) -> None:
@@ -189,6 +193,25 @@ class Traffic:
         wait = np.flatnonzero(wait & np.isin(robots.goal, list(bars)))
         by = self._execution.holders([bars[goal] for goal in robots.goal[wait].tolist()])
         ahead[wait] = np.where(by != wait, by, NOWHERE)
+
+    def _look_for_cutting(self, ahead: np.ndarray) -> None:
+        """Has robots that have stood a while without one `ahead` wait for the one that leaves them
+        no way to their goal, as it does not drive."""
+        robots = self.robots
+        closed = self._execution.closed()
+        by = self._execution.holders(closed)
+        stays = (by != NOWHERE) & (robots.broken | ~robots.automatic)[by]
+        if not stays.any():
+            return
+        self._cut_off.set_obstacles(closed[stays], self.plan.passable.size)
+        wait = (ahead == NOWHERE) & robots.stands & ~robots.busy & (robots.cell != NOWHERE)
+        wait &= (robots.goal != NOWHERE) & (robots.goal != robots.cell)
+        wait &= self.time - robots.still_since > STANDS
+        for robot in np.flatnonzero(wait).tolist():
+            cell, goal = int(robots.cell[robot]), int(robots.goal[robot])
+            obstacles = self._cut_off.obstacles(cell, goal, bool(robots.loaded[robot]))
+            if len(obstacles):
+                ahead[robot] = self._execution.holder(int(obstacles[0]))
 
     def holder(self, cell: int) -> int:
         """Returns the robot that a cell has been released to, or that stands there; or NOWHERE."""
