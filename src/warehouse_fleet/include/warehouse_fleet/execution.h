@@ -96,9 +96,9 @@ class Execution {
   /// Returns the cells closed now, including those of robots that are not controlled.
   std::vector<Cell> closed() const;
 
-  /// Keeps a cell for a robot that others are to set down there, as an elevator does: no other robot
-  /// is released into it. A robot keeps one cell at most, until it stands there or gives it up; its
-  /// journey goes on there. Returns whether the cell was free.
+  /// Keeps a cell for a robot that others are to set down there, as an elevator does: no other
+  /// robot is released into it. A robot keeps one cell at most, until it stands there or gives it
+  /// up; its journey goes on there. Returns whether the cell was free.
   bool keep(int robot, Cell cell);
   /// Gives up the cell kept for a robot.
   void giveUp(int robot);

@@ -205,8 +205,7 @@ robot.)")
           "recall", [](Run& run, Cell cell) { run.execution.recall(cell); }, py::arg("cell"),
           "Stops the robot to which a cell was released before that cell, if it still can stop.")
       .def(
-          "keep",
-          [](Run& run, int robot, Cell cell) { return run.execution.keep(robot, cell); },
+          "keep", [](Run& run, int robot, Cell cell) { return run.execution.keep(robot, cell); },
           py::arg("robot"), py::arg("cell"),
           R"(Keeps a cell for a robot that others are to set down there; returns whether it was free.
 

@@ -122,7 +122,9 @@ class FleetDriver:
 
     def _carry_out(self, decision: Decision) -> None:
         world = self.world
-        for move in (*decision.tows, *decision.moves):
+        for tow in decision.tows:
+            self._set_down(tow)
+        for move in decision.moves:
             self._set_down(move)
         for kiva_id, shelf_id, up in decision.lifts:
             world.carry(kiva_id, shelf_id) if up else world.drop(kiva_id, shelf_id)

@@ -200,7 +200,7 @@ class Elevators:
         return bool(is_there or not list(self._chains.options(cell, goal)))
 
     def _drop(self, trip: Trip) -> None:
-        """Ends a trip whose robot needs no ride any more. One that is in the car leaves it first."""
+        """Ends a trip whose robot needs no ride any more. One in the car leaves it first."""
         if trip.phase == Phase.ENTERING:
             self._execution.give_up(trip.robot)
             self.cars[trip.ride.elevator].exit = trip.ride.start

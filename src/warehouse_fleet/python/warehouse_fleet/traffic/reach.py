@@ -14,8 +14,8 @@ NOWHERE = -1
 
 class Reach:
     """The reach of a fleet on a FloorPlan while `closed` cells are barred: that of the largest
-    connected part of each tier's streets. `is_cut`, (cells,) bool: closed, or no robot comes there with a
-    unit; `stations`: the names of those to which no unit can be brought and taken away."""
+    connected part of each tier's streets. `is_cut`, (cells,) bool: closed, or no robot comes there
+    with a unit; `stations`: the names of those to which no unit can be brought and taken away."""
 
     def __init__(
         self, plan: FloorPlan, floor: Floor, ways: StationWays, closed: AbstractSet[int]

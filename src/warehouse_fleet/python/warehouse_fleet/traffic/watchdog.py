@@ -14,8 +14,8 @@ MOVES_UP = 10.0  # a robot that has moved in a lane within this is about to be s
 
 class Watchdog:
     """Counts robots that make no progress. A robot that waits for one that is served at a station,
-    broken, commanded by a person, or at an elevator is excused. `lane`, (cells,) bool: those in lanes of stations.
-    `all_ahead` returns the robot for which each robot waits, (n,)."""
+    broken, commanded by a person, or at an elevator is excused. `lane`, (cells,) bool: those in
+    lanes of stations. `all_ahead` returns the robot for which each robot waits, (n,)."""
 
     def __init__(
         self, robots: RobotTable, lane: np.ndarray, all_ahead: Callable[[], np.ndarray]

@@ -7,7 +7,6 @@ import numpy as np
 
 from warehouse_fleet.robots.robot_table import NOWHERE
 
-
 CHANGE = 100_000  # from one tier to another, farther than any way on one [cells]
 
 

@@ -94,9 +94,7 @@ class FloorPlan:
         inside = (rows >= 0) & (rows < height) & (columns >= 0) & (columns < width)
         return np.unique(rows[inside] * width + columns[inside]).astype(np.int32)
 
-    def floor(
-        self, passable: np.ndarray | None = None, lane: np.ndarray | None = None
-    ) -> Floor:
+    def floor(self, passable: np.ndarray | None = None, lane: np.ndarray | None = None) -> Floor:
         """Returns the Floor for planners; obstructed cells must be given to them as closed.
 
         Loaded robots keep out of parking as they do of storage. `passable` and `lane`, (h, w) bool,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Robots with bodies ride elevators: one at a time, for the times of the file, and touch nothing."""
+"""Robots with bodies ride elevators: one at a time, for the times of the file, without contact."""
 
 import numpy as np
 import pytest
@@ -64,8 +64,10 @@ def arrivals(count):
     return lambda events: sum(event.kind == Kind.ARRIVED for event in events) >= count
 
 
-def phases(driver):
-    return [trip.phase for trip in driver.traffic.elevators._trips.values()]
+def phases(driver, robot=None):
+    """The phases of all rides, or of that of a robot."""
+    trips = driver.traffic.elevators._trips.values()
+    return [trip.phase for trip in trips if robot in (None, trip.robot)]
 
 
 def test_a_unit_to_the_other_tier(fleet_of):
@@ -102,7 +104,7 @@ def test_a_unit_to_the_other_tier(fleet_of):
 
 
 def test_two_robots_from_both_ends(fleet_of):
-    """Each lets the other pass: nobody stands where a robot is set down."""
+    """Each lets the other pass: no robot stands where one is set down."""
     driver, site = fleet_of(of_each_tier)
     stations = services(site)[::-1]
     for unit, station in zip(of_each_tier(site), stations):
@@ -150,15 +152,35 @@ def test_a_robot_that_breaks_down_before_an_elevator_lets_others_ride(fleet_of):
     (trip,) = (t for t in driver.traffic.elevators._trips.values() if t.phase == Phase.ENTERING)
     other = 1 - trip.robot
     driver.world.fail(int(driver.robots.kiva_ids[trip.robot]), int(FailureKind.MOTOR), 120.0)
-    tier = site.plan.tier.flat
-    began = tier[driver.robots.cell[other]]
-    run(driver, lambda _: tier[driver.robots.cell[other]] != began)
-    assert driver.robots.broken[trip.robot] and tier[driver.robots.cell[trip.robot]] != began
+    run(driver, lambda _: phases(driver, other) == [Phase.RIDING], driver.time + 20)
+    assert driver.robots.broken[trip.robot] and phases(driver, trip.robot) == [Phase.WAITING]
+
+
+def test_a_queue_rides_in_its_order(fleet_of):
+    """Robots that move up push none out of the car."""
+    driver, site = fleet_of(lambda site: units_by_tier(site)[0][:4])
+    for unit in units_by_tier(site)[0][:4]:
+        driver.transports.submit(unit, services(site)[1].name, then=STAY)
+    entered, rode = [], []
+
+    def look(_):
+        elevators = driver.traffic.elevators
+        for trip in elevators._trips.values():
+            if trip.phase >= Phase.ENTERING:
+                has_car = driver.traffic.holder(trip.ride.start) == trip.robot
+                assert elevators.busy[trip.robot] == has_car
+            for phase, robots in ((Phase.ENTERING, entered), (Phase.RIDING, rode)):
+                if trip.phase == phase and trip.robot not in robots[-1:]:
+                    robots.append(trip.robot)
+        return len(rode) == 4
+
+    run(driver, look)
+    assert entered == rode and sorted(rode) == list(range(4))
 
 
 @pytest.mark.parametrize("tiers, bots", [(2, 4), (3, 6)])
 def test_a_shift_on_tiers(tmp_path, tiers, bots):
-    """Twenty-five minutes with many rides: no contact, no jam, and the stock balances; it repeats."""
+    """Twenty-five minutes with many rides: no contact, no jam, the stock balances; it repeats."""
     path = write_tiers_instance(tmp_path / "a.xinst", tiers=tiers, bots=bots)
     outcomes = []
     for k in range(2):
