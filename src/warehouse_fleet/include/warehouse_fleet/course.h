@@ -87,6 +87,7 @@ struct Course {
   std::vector<Cell>
       occupied;  ///< cells beyond `cells` that an obstacle or an astray robot stands on
   Recovery recovery;
+  Cell kept = kNowhere;  ///< cell in which others are to set it down, which it holds already
 
   double still_since = 0, blocked_since = -1;
   double moved = 0;  ///< when it last moved or had nothing ahead [s]

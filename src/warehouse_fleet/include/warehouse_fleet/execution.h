@@ -96,6 +96,13 @@ class Execution {
   /// Returns the cells closed now, including those of robots that are not controlled.
   std::vector<Cell> closed() const;
 
+  /// Keeps a cell for a robot that others are to set down there, as an elevator does: no other
+  /// robot is released into it. A robot keeps one cell at most, until it stands there or gives it
+  /// up; its journey goes on there. Returns whether the cell was free.
+  bool keep(int robot, Cell cell);
+  /// Gives up the cell kept for a robot.
+  void giveUp(int robot);
+
   // Queries about one robot; std::out_of_range for an unknown index.
 
   /// Returns its present or last cell; kNowhere beyond the floor.

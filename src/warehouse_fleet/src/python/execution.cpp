@@ -205,6 +205,16 @@ robot.)")
           "recall", [](Run& run, Cell cell) { run.execution.recall(cell); }, py::arg("cell"),
           "Stops the robot to which a cell was released before that cell, if it still can stop.")
       .def(
+          "keep", [](Run& run, int robot, Cell cell) { return run.execution.keep(robot, cell); },
+          py::arg("robot"), py::arg("cell"),
+          R"(Keeps a cell for a robot that others are to set down there; returns whether it was free.
+
+No other robot is released into it until the robot has come and left, or give_up(). Its journey goes
+on there.)")
+      .def(
+          "give_up", [](Run& run, int robot) { run.execution.giveUp(robot); }, py::arg("robot"),
+          "Gives up the cell kept for a robot.")
+      .def(
           "set_units",
           [](Run& run, const Array<Cell>& cells) {
             run.execution.setUnits({cells.data(), cells.data() + cells.size()});

@@ -19,6 +19,7 @@ import numpy as np
 from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_fleet.robots.robot_table import NOWHERE, Reports
 from warehouse_fleet.traffic.closed_zones import ClosedZone
+from warehouse_fleet.traffic.elevators import Move
 from warehouse_fleet.traffic.people import NO_PEOPLE
 from warehouse_fleet.traffic.takeover import Handover, Takeover
 from warehouse_fleet.traffic.traffic import STAYS, Releases, Traffic
@@ -62,6 +63,7 @@ class Decision:
     lifts: list[LiftOrder] = field(default_factory=list)
     cancels: list[int] = field(default_factory=list)  # kiva ids whose paths are to end
     tows: list[TowOrder] = field(default_factory=list)
+    moves: list[Move] = field(default_factory=list)  # of elevators
 
 
 class FleetController:
@@ -150,7 +152,9 @@ class FleetController:
             units = observation.look_at_units()
             if units is not None:
                 self.transports.update_units(units)
-        return Decision(traffic.releases(), self.transports.take_lifts(), cancels, tows)
+        releases = traffic.releases()
+        lifts, moves = self.transports.take_lifts(), traffic.take_moves()
+        return Decision(releases, lifts, cancels, tows, moves)
 
     def _cancels(self, time: float, reports: Reports) -> list[int]:
         """Returns the robots whose paths are to end: others gave them out, or the robots have left

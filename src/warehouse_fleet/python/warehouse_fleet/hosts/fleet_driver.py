@@ -14,11 +14,14 @@ from warehouse_fleet.hosts.controller import Decision, FleetController, Observat
 from warehouse_fleet.robots.failures import FailureLog, heard
 from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_fleet.robots.robot_table import columns_of
+from warehouse_fleet.traffic import elevator_rules
+from warehouse_fleet.traffic.elevators import Move
 from warehouse_fleet.traffic.people import PeopleLog, people_in
 from warehouse_fleet.transports.towing import TowOrder
 from warehouse_fleet.transports.unit_map import UnitPoses
 from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor.landings import Landings
 from warehouse_layout.message_enums import EventKind
 
 UPDATE = 0.1  # time between two updates [s]
@@ -55,6 +58,8 @@ class FleetDriver:
         self.world = world
         self.plan = plan or plan_reader.of_world(world)
         self.plan.check(obstructed=False)
+        if self.plan.elevators:
+            Landings(self.plan).check()
         self.controller = FleetController(
             self.plan,
             world.fleet.kiva_id,
@@ -118,7 +123,9 @@ class FleetDriver:
     def _carry_out(self, decision: Decision) -> None:
         world = self.world
         for tow in decision.tows:
-            self._tow(tow)
+            self._set_down(tow)
+        for move in decision.moves:
+            self._set_down(move)
         for kiva_id, shelf_id, up in decision.lifts:
             world.carry(kiva_id, shelf_id) if up else world.drop(kiva_id, shelf_id)
         if decision.cancels:
@@ -129,9 +136,9 @@ class FleetDriver:
     def tow(self, kiva_id: int) -> None:
         """Moves a broken or lost robot out of the way. Raises ValueError as
         FleetController.tow()."""
-        self._tow(self.controller.tow(kiva_id))
+        self._set_down(self.controller.tow(kiva_id))
 
-    def _tow(self, order: TowOrder) -> None:
+    def _set_down(self, order: TowOrder | Move) -> None:
         yaw = self.world.fleet.yaw[self.world.fleet.index(order.kiva_id)]
         self.world.set_pose(f"kiva{order.kiva_id}", order.x, order.y, yaw=square(yaw))
 
@@ -159,6 +166,12 @@ class FleetDriver:
         refused = events[kinds == REFUSED]
         self.refusals += [f"{event['model']}: {event['text']}" for event in refused]
         return [event["model"] for event in refused]
+
+    @property
+    def elevators(self) -> dict[str, float]:
+        """The figures of elevators, as elevator_rules.figures(); empty without any."""
+        elevators = self.traffic.elevators
+        return elevator_rules.figures(elevators.cars, self.time) if elevators else {}
 
     @property
     def blocked(self) -> int:

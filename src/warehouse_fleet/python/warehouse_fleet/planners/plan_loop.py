@@ -34,6 +34,7 @@ class PlanLoop:
 
     `planner` is a YAML file's description, see planner_plugins; None: the one of this package, on
     `threads` threads (0: one less than the machine's cores), with the same plans for any number.
+    `whole_up_to`: the cells of the largest floor whose tables are whole; 0: the planner's own.
     `refused` counts plans that were refused, `alarm` says why the last one was.
     """
 
@@ -49,13 +50,15 @@ class PlanLoop:
         planner: Any = None,
         attempts: int = 0,
         threads: int = 0,
+        whole_up_to: int = 0,
     ) -> None:
         # Execution arbitrates turning; the planner may assume that every turn succeeds.
         rules = Rules(turning=True)
         self.planner: Planner | ValidatedPlanner
         if planner is None:
             threads = threads or max(1, (os.cpu_count() or 1) - 1)
-            self.planner = epibt(floor, rules, seed, horizon=HORIZON, threads=threads, **GUIDANCE)
+            options = {**GUIDANCE, **({"whole_up_to": whole_up_to} if whole_up_to else {})}
+            self.planner = epibt(floor, rules, seed, horizon=HORIZON, threads=threads, **options)
         else:
             self.planner = make_planner(floor, rules, seed, planner, robot_names)
         self.refused, self.alarm = 0, ""

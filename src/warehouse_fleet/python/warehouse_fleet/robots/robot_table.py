@@ -67,7 +67,8 @@ class RobotTable:
     By execution, written by Traffic: `cell` (in which the robot stands, or stood last), `stands`
     (nothing released lies ahead), `waits_for` (a robot), `still_since` [s], `stalled` (it does not
     drive although it may), `stalled_since` [s], `astray` (pushed off the middle of its cell),
-    `lost` (it did not find back, and is OUT_OF_SERVICE since then), `slowed_for_people`.
+    `lost` (it did not find back, and is OUT_OF_SERVICE since then), `slowed_for_people`, `rides`
+    (in an elevator, or in its queue).
     `mode` is written by set_mode of the controller, and by those who find that it has changed.
     """
 
@@ -94,6 +95,7 @@ class RobotTable:
         self.astray = np.zeros(count, bool)
         self.lost = np.zeros(count, bool)
         self.slowed_for_people = np.zeros(count, bool)
+        self.rides = np.zeros(count, bool)
 
     def __len__(self) -> int:
         return len(self.kiva_ids)

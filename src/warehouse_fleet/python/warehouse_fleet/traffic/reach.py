@@ -14,8 +14,8 @@ NOWHERE = -1
 
 class Reach:
     """The reach of a fleet on a FloorPlan while `closed` cells are barred: that of the largest
-    connected part of its streets. `is_cut`, (cells,) bool: closed, or no robot comes there with a
-    unit; `stations`: the names of those to which no unit can be brought and taken away."""
+    connected part of each tier's streets. `is_cut`, (cells,) bool: closed, or no robot comes there
+    with a unit; `stations`: the names of those to which no unit can be brought and taken away."""
 
     def __init__(
         self, plan: FloorPlan, floor: Floor, ways: StationWays, closed: AbstractSet[int]
@@ -27,7 +27,10 @@ class Reach:
         self.is_cut[list(closed)] = True
         ahead = np.asarray(floor.edges(True))
         streets = (plan.passable & ~plan.storage & ~plan.parking & ~plan.lane).ravel()
-        self.is_cut |= streets & ~_largest_part(ahead, streets & ~self.is_cut)
+        tier = plan.tier.ravel()
+        for number in range(tier.max(initial=0) + 1):
+            of_tier = streets & (tier == number)
+            self.is_cut |= of_tier & ~_largest_part(ahead, of_tier & ~self.is_cut)
         self._cut_places(plan, ahead)
         cut = frozenset(np.flatnonzero(self.is_cut).tolist())
         self.stations = frozenset(s.name for s in plan.stations if ways.are_barred(s.name, cut))

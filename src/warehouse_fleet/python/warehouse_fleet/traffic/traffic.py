@@ -19,11 +19,13 @@ from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_fleet.robots.robot_table import NOWHERE, Reports, RobotTable
 from warehouse_fleet.traffic.closed_zones import ClosedZones
 from warehouse_fleet.traffic.cut_off import CutOff
+from warehouse_fleet.traffic.elevators import Elevators, Move
 from warehouse_fleet.traffic.obstacles import ObstacleLog
 from warehouse_fleet.traffic.people import zone_around
 from warehouse_fleet.traffic.station_ways import StationWays
 from warehouse_fleet.traffic.watchdog import Watchdog
 from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor.landings import Landings
 from warehouse_layout.floor.plan_reader import is_taken
 from warehouse_layout.message_enums import RobotMode, Status
 
@@ -72,7 +74,9 @@ class Traffic:
         threads: int = 0,
     ) -> None:
         kinematics = kinematics or Kinematics()
-        self.plan, self.floor = plan, plan.floor()
+        self.plan = plan
+        landings = Landings(plan) if plan.elevators else None
+        self.floor = plan.floor(lane=plan.lane | landings.lane) if landings else plan.floor()
         self.robots = RobotTable(kiva_ids)
         self.time = 0.0  # of the last reports [s]
         self.takes_over = False
@@ -85,6 +89,11 @@ class Traffic:
             quarter=kinematics.quarter_turn,
             latency=latency,
         )
+        self.elevators: Elevators | None = None
+        if landings:
+            self.elevators = Elevators(
+                plan, landings, self.floor, self.robots, self._execution, kinematics
+            )
         self.plans = PlanLoop(
             self.floor,
             self._execution,
@@ -95,6 +104,8 @@ class Traffic:
             planner=planner,
             attempts=attempts,
             threads=threads,
+            # Tiers beside each other share regions, whose middles are on one of them only.
+            whole_up_to=plan.passable.size if plan.elevators else 0,
         )
         self._settled = np.zeros(len(self.robots), bool)  # has been idle since this began
         self._foreign = np.zeros(len(self.robots), np.uint8)  # reports in a row
@@ -138,7 +149,7 @@ class Traffic:
             reports["reached"],
             reports["left"],
             robots.automatic & (not self.takes_over),
-            robots.busy,
+            self._stay,
             robots.loaded,
         )
         states = execution.states()
@@ -151,6 +162,8 @@ class Traffic:
         robots.lost &= ~robots.gone
         robots.mode[robots.lost] = OUT_OF_SERVICE
         self._find_foreign(reports, foreign)
+        if self.elevators:
+            robots.rides = self.elevators.waits
         self.watchdog.update(time)
 
     def inherited(self, reports: Reports) -> np.ndarray:
@@ -224,7 +237,10 @@ class Traffic:
         return (there & among).nonzero()[0]
 
     def shortest(self, begin: int, end: int, loaded: bool = False) -> int:
-        """Returns the cells of the shortest path from `begin` to `end`."""
+        """Returns the cells of the shortest path from `begin` to `end`; rides count none."""
+        tier = self.plan.tier.flat
+        if self.elevators and tier[begin] != tier[end]:
+            return self.elevators.shortest(begin, end, loaded)
         return self.floor.shortest(begin, end, loaded=loaded)
 
     def on_refused(self, model: str) -> None:
@@ -290,6 +306,17 @@ class Traffic:
         """Closes cells for loaded robots: units stand there, off the storage places."""
         self._execution.set_units(np.asarray(cells, np.int32))
 
+    @property
+    def _stay(self) -> np.ndarray:
+        """(n,) bool: robots that do not drive on now, as they are busy or ride."""
+        busy = self.robots.busy
+        return busy | self.elevators.busy if self.elevators else busy
+
+    def take_moves(self) -> list[Move]:
+        """Returns the robots that an elevator has brought to another tier: the host is to set them
+        down there before the next report."""
+        return self.elevators.take_moves() if self.elevators else []
+
     def journey(self, robot: int) -> tuple[float, float, int]:
         """Returns (seconds driven, seconds planned, cells) since the last call for that robot."""
         driven, planned, cells = self._execution.take_journey(robot)
@@ -302,12 +329,15 @@ class Traffic:
 
     def releases(self) -> Releases:
         """Returns the releases to send; adopts and begins plans that are due."""
-        robots = self.robots
-        self._execution.set_work(robots.busy, robots.loaded)
+        robots, goal = self.robots, self.robots.goal
+        if self.elevators:
+            self.elevators.advance(self.time)
+            goal = self.elevators.goals()
+        self._execution.set_work(self._stay, robots.loaded)
         self.plans.adopt_due(self.time)
         index, path_id, first, points, cells, released = self._execution.release()
         robots.waits_for = self._execution.waits_for()
-        self.plans.begin_due(self.time, robots.goal, robots.home)
+        self.plans.begin_due(self.time, goal, robots.home)
         x, y = self.plan.point_of(cells)
         return Releases(robots.kiva_ids[index], path_id, first, points, x, y, released)
 

@@ -14,8 +14,8 @@ MOVES_UP = 10.0  # a robot that has moved in a lane within this is about to be s
 
 class Watchdog:
     """Counts robots that make no progress. A robot that waits for one that is served at a station,
-    broken or commanded by a person is excused. `lane`, (cells,) bool: those in lanes of stations.
-    `all_ahead` returns the robot for which each robot waits, (n,)."""
+    broken, commanded by a person, or at an elevator is excused. `lane`, (cells,) bool: those in
+    lanes of stations. `all_ahead` returns the robot for which each robot waits, (n,)."""
 
     def __init__(
         self, robots: RobotTable, lane: np.ndarray, all_ahead: Callable[[], np.ndarray]
@@ -36,7 +36,7 @@ class Watchdog:
     def update(self, time: float) -> None:
         """Looks up excuses at a time [s], and counts the robots without one."""
         robots, self._time = self._robots, time
-        self._excused[robots.broken | robots.slowed_for_people] = time
+        self._excused[robots.broken | robots.slowed_for_people | robots.rides] = time
         waiting = self.stuck_for > LOOKS_AHEAD
         if waiting.any():
             self._excused[waiting & self._wait_excused()] = time
@@ -51,6 +51,7 @@ class Watchdog:
         in_lane = self._lane[robots.cell] & (robots.cell != NOWHERE)
         excuses = in_lane & (self._time - robots.still_since < MOVES_UP)
         excuses |= robots.busy | ~robots.automatic | robots.broken | robots.slowed_for_people
+        excuses |= robots.rides
         ahead = self._all_ahead()
         ahead[ahead == NOWHERE] = len(robots)  # the end of each chain, which excuses none
         ahead, excused = np.append(ahead, len(robots)), np.append(excuses, False)

@@ -77,7 +77,8 @@ class Transports(TransportRequests):
         super().__init__(plan, TransportBook(robots.kiva_ids, traffic, last, names))
         self._traffic, self.robots = traffic, robots
         self.units = UnitMap(plan)
-        self.distances = Distances(plan.width)
+        tier = plan.tier.ravel() if plan.elevators else None
+        self.distances = Distances(plan.width, tier)
         self.aside = (plan.storage | plan.parking).ravel()  # cells where no robot passes
         self.match_robots: Matching = lambda asked, free: nearest_robots(
             self.distances, self.units.cell_of, robots.cell, asked, free

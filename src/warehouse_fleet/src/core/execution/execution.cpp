@@ -102,12 +102,14 @@ void Execution::admit(int robot) {
     if (course.recovery.since < 0) course.recovery.since = now_;
     at = refuge(robot);
   }
-  if (at == kNowhere || holders_.holder(at) != kNobody) return;
+  if (at == kNowhere) return;
+  if (holders_.holder(at) != kNobody && at != course.kept) return;
   vacate(robot);
   renew(robot);
   course.id = std::max(course.id, report.path_id);
   course.admit(at, now_, headingOf(robot));
   holders_.hold(at, robot);
+  if (at == course.kept) course.kept = kNowhere;
 }
 
 /// Returns whether the robot has driven, or dropped, all of its released path.
@@ -130,8 +132,29 @@ void Execution::dismiss(int robot) {
 void Execution::renew(int robot) {
   Course next;
   next.id = courses_[robot].id;
+  next.kept = courses_[robot].kept;
+  if (next.kept != kNowhere) {
+    endRun(courses_[robot]);
+    next.journey = courses_[robot].journey;
+  }
   if (reports_[robot].is_controlled) next.recovery = std::move(courses_[robot].recovery);
   courses_[robot] = std::move(next);
+}
+
+bool Execution::keep(int robot, Cell cell) {
+  Course& course = courses_.at(robot);
+  if (cell == course.kept) return true;
+  if (!floor_.has(cell) || holders_.holder(cell) != kNobody) return false;
+  giveUp(robot);
+  holders_.hold(cell, robot);
+  course.kept = cell;
+  return true;
+}
+
+void Execution::giveUp(int robot) {
+  Course& course = courses_.at(robot);
+  if (course.kept != kNowhere) holders_.free(course.kept, robot);
+  course.kept = kNowhere;
 }
 
 /// Updates the progress of a member on its path.

@@ -94,17 +94,17 @@ class FloorPlan:
         inside = (rows >= 0) & (rows < height) & (columns >= 0) & (columns < width)
         return np.unique(rows[inside] * width + columns[inside]).astype(np.int32)
 
-    def floor(self, passable: np.ndarray | None = None) -> Floor:
+    def floor(self, passable: np.ndarray | None = None, lane: np.ndarray | None = None) -> Floor:
         """Returns the Floor for planners; obstructed cells must be given to them as closed.
 
-        Loaded robots keep out of parking as they do of storage. `passable` (h, w) bool replaces
-        that of the plan.
+        Loaded robots keep out of parking as they do of storage. `passable` and `lane`, (h, w) bool,
+        replace those of the plan.
         """
         return Floor(
             self.passable if passable is None else passable,
             storage=self.storage,
             parking=self.parking,
-            lane=self.lane,
+            lane=self.lane if lane is None else lane,
             exits=self.exits,
         )
 

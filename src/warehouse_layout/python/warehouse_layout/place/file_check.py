@@ -68,8 +68,9 @@ def _rides(file: LayoutFile) -> list[Fault]:
 def no_rides(names: Sequence[str]) -> str:
     """Returns the sentence about elevators where robots have bodies."""
     return (
-        f"robots with bodies take no elevators ({', '.join(names[:NAMED])}): simulate without"
-        " physics, as ideal robots take them, or make a layout of each tier"
+        f"robots with bodies take no elevators of a layout ({', '.join(names[:NAMED])}): simulate"
+        " without physics, as ideal robots take them, or make a layout of each tier; those of an"
+        " instance (.xinst) they take"
     )
 
 

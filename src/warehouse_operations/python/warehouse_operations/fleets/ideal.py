@@ -17,6 +17,7 @@ from dataclasses import replace
 import numpy as np
 
 from warehouse_fleet.robots.kinematics import Kinematics
+from warehouse_fleet.traffic import elevator_rules
 from warehouse_fleet.transports.transport_book import Transport
 from warehouse_fleet.transports.transport_requests import TransportRequests
 from warehouse_layout.floor.floor_plan import FloorPlan
@@ -210,18 +211,8 @@ class IdealFleet(TransportRequests):
 
     @property
     def elevators(self) -> dict[str, float]:
-        """Rides so far, the share of the elevators' time in them, and the mean wait before [s];
-        empty without elevators."""
-        lifts = self._trips.lifts.all
-        if not lifts:
-            return {}
-        rides = sum(lift.rides for lift in lifts)
-        return {
-            "elevator_rides": rides,
-            "elevator_ride_fraction": sum(lift.ridden for lift in lifts)
-            / max(self.time * len(lifts), 1e-9),
-            "elevator_wait_s": sum(lift.waited for lift in lifts) / max(rides, 1),
-        }
+        """The figures of elevators, as elevator_rules.figures(); empty without any."""
+        return elevator_rules.figures(self._trips.lifts.all, self.time)
 
     def unit_cell(self, shelf_id: int) -> int | None:
         """Returns the cell where a unit stands; None while it is carried."""

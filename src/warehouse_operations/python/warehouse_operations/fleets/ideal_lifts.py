@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Elevators of ideal robots: one robot at a time, in the order in which they come.
 
-A ride takes the time of its elevator, from when the robot stands in it. The next robot moves up by
-a cell once that one has left the cell at the end of its ride; an empty car needs no time to come to
-it, as in RAWSim-O. Of several elevators a robot takes the one by which it should come first, with
-those that wait there and are on their way to it.
+By the rules of elevator_rules; the next robot moves up by a cell. Of several elevators a robot
+takes the one by which it should come first.
 """
 
 from collections import deque
@@ -13,6 +11,7 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from warehouse_fleet.robots.kinematics import Kinematics
+from warehouse_fleet.traffic.elevator_rules import Car, best
 from warehouse_layout.floor.rides import Leg, Option, Ride
 from warehouse_operations.fleets.ideal_floor import IdealFloor
 
@@ -69,16 +68,18 @@ class Journey:
 
 
 @dataclass(eq=False)
-class Lift:
+class Lift(Car):
     """The robots that ride and wait for an elevator, and the figures of its rides so far."""
 
     queue: deque[Journey] = field(default_factory=deque)
     riding: Journey | None = None  # from when the robot may move up into it
     coming: int = 0  # robots on their way to it
     free_from: float = 0.0  # when its last robot has left [s]
-    rides: int = 0
-    ridden: float = 0.0  # time of its rides [s]
-    waited: float = 0.0  # by all robots that have ridden [s]
+
+    @property
+    def ahead(self) -> int:
+        """The robots that ride, wait, and are on their way to it."""
+        return self.coming + len(self.queue) + (self.riding is not None)
 
 
 class Lifts:
@@ -91,18 +92,8 @@ class Lifts:
 
     def best(self, options: Iterable[Option]) -> Ride | None:
         """Returns the ride of the option that should end first; None without any."""
-        options = list(options)
-        if not options:
-            return None
-        return min(options, key=lambda option: option.seconds + self._wait(option)).ride
-
-    def _wait(self, option: Option) -> float:
-        """Returns how long a robot that begins such a way now should wait [s]."""
-        lift, trips = self.all[option.ride.elevator], self._trips
-        spacing = trips.floor.plan.spacing
-        moving = trips.kinematics.leaving(spacing) + float(trips.kinematics.run(spacing))
-        ahead = lift.coming + len(lift.queue) + (lift.riding is not None)
-        return max(ahead * (option.ride.seconds + moving) - option.there, 0.0)
+        trips = self._trips
+        return best(options, self.all, trips.kinematics, trips.floor.plan.spacing)
 
     def begin(
         self,
@@ -160,7 +151,7 @@ class Lifts:
     def _leave(self, journey: Journey) -> None:
         """Has a robot leave at the end of its ride."""
         lift, ride = self.all[journey.ride.elevator], journey.ride
-        lift.rides, lift.ridden = lift.rides + 1, lift.ridden + ride.seconds
+        lift.carried(ride)
         journey.robot.cell, journey.is_riding = ride.end, False
         journey.legs.popleft()
         trips = self._trips

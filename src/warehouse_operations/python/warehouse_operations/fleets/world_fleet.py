@@ -80,8 +80,12 @@ class WorldFleet(FleetDriver):
         return self._hooks.choose_place(shelf_id, free, metres)
 
     def _park(self, robot: int) -> int | None:
+        """Returns where a robot without work waits: it rides no elevator to park."""
         robots = self.robots
-        return self._hooks.park(int(robots.kiva_ids[robot]), int(robots.cell[robot]))
+        at = int(robots.cell[robot])
+        cell = self._hooks.park(int(robots.kiva_ids[robot]), at)
+        tier = self.plan.tier.flat
+        return None if cell is not None and tier[cell] != tier[at] else cell
 
     def step(self) -> None:
         """Advances by 0.1 s; counts the robots through each cell and their activities."""

@@ -12,6 +12,7 @@ from warehouse_fleet.planners.planner_plugins import PlannerError
 from warehouse_layout import FloorError
 from warehouse_layout.file.layout_file import LayoutFile, LayoutFileError, text_of
 from warehouse_layout.file.request import items_for
+from warehouse_layout.floor.landings import Landings
 from warehouse_layout.generate import layout_choice
 from warehouse_layout.place import file_check, placement
 from warehouse_operations.fleets import availability, measured
@@ -178,6 +179,7 @@ def _jams(path: str, site: Site) -> str:
     """Returns a sentence about where robots with bodies could be stuck; "" where they can't."""
     try:
         site.plan.check()
+        Landings(site.plan).check()
     except FloorError as error:
         return f"{path}: {error}"
     if site.plan.spacing < file_check.LEAST_SPACING:
@@ -231,8 +233,6 @@ def _open_operations(description: Description, database: str | None = None) -> O
         _check_bundles(description.instance, site)
         world = None
         if description.physics:
-            if elevators := [elevator.name for elevator in site.plan.elevators]:
-                raise InstanceError(f"{description.instance}: {file_check.no_rides(elevators)}")
             if jams := _jams(description.instance, site):
                 raise InstanceError(jams)
             with _errors_as_ours():
