@@ -8,6 +8,7 @@ sum of its moves. Reserved pieces are promised to a pick; expected ones are on t
 from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Iterable
 from enum import StrEnum
+from heapq import heappop, heappush
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ import numpy as np
 from warehouse_operations.goods.kinds import Goods
 
 ROOMY = 12  # pieces, of the largest bundle
+TOLERANCE = 1e-6  # of weights that fit on a unit
 
 
 class Reason(StrEnum):
@@ -82,7 +84,16 @@ class Inventory:
         goods: Goods | None = None,
     ) -> None:
         self.goods = goods
-        self._load: dict[int, float] = defaultdict(float)  # weight on a unit or expected, by id
+        # Units, ascending; and of each the weight on it or expected, the weight that it holds, and
+        # the number of its empty bins.
+        self._units = np.unique(np.array([bin_.unit for bin_ in bins], np.int64))
+        self._row_of_unit = {unit: row for row, unit in enumerate(self._units.tolist())}
+        self._load = np.zeros(len(self._units))
+        limits = goods.limits if goods else {}
+        self._limit = np.array([limits.get(unit, 0.0) for unit in self._row_of_unit])
+        self._empties = np.zeros(len(self._units), np.int32)
+        # Its empty bins by id, a heap for each unit; others are among them until they come first.
+        self._first_empties: dict[int, list[int]] = defaultdict(list)
         self._weight = 0.0  # of all pieces
         self.bins = {bin_.bin_id: bin_ for bin_ in bins}
         self.of_unit: dict[int, list[Bin]] = defaultdict(list)
@@ -158,6 +169,38 @@ class Inventory:
         units, begins = np.unique(unit_of[order], return_index=True)
         return rows[order], units, begins
 
+    def places(self, sku: str, quantity: int, units: Collection[int]) -> list[Bin]:
+        """Returns the bins on some units that take a quantity of a SKU: those with pieces of it,
+        then empty ones. Where units have limits, a unit's empty bins are alike, and the first of
+        them stands for all: looking at each would take longer than the rest of a shift."""
+        with_it = [
+            bin_
+            for bin_ in self.with_sku(sku)
+            if bin_.unit in units and self.takes(bin_, sku, quantity)
+        ]
+        return [*with_it, *self._empty_places(sku, quantity, units)]
+
+    def _empty_places(self, sku: str, quantity: int, units: Collection[int]) -> list[Bin]:
+        if not self.goods:
+            bins = (bin_ for bin_ in self.empty.values() if bin_.unit in units)
+            return [bin_ for bin_ in bins if self.takes(bin_, sku, quantity)]
+        weight = quantity * self.goods.weight(sku)
+        fits = (self._empties > 0) & (weight <= self._limit - self._load + TOLERANCE)
+        firsts = (self._first_empty(u) for u in self._units[fits].tolist() if u in units)
+        return [bin_ for bin_ in firsts if self.takes(bin_, sku, quantity)]
+
+    def _first_empty(self, unit: int) -> Bin:
+        ids = self._first_empties[unit]
+        while ids[0] not in self.empty:
+            heappop(ids)
+        return self.empty[ids[0]]
+
+    def empties(self, units: Collection[int]) -> dict[int, int]:
+        """Returns the numbers of empty bins on those of some units that have any, by unit."""
+        some = self._empties > 0
+        pairs = zip(self._units[some].tolist(), self._empties[some].tolist())
+        return {unit: count for unit, count in pairs if unit in units}
+
     def takes(self, bin_: Bin, sku: str, quantity: int) -> bool:
         """Returns whether a quantity of a SKU can be put into a bin.
 
@@ -172,13 +215,14 @@ class Inventory:
         return bin_.room >= quantity and (bin_.sku == sku or may_move_in)
 
     def _weight_fits(self, unit: int, sku: str, quantity: int) -> bool:
-        return self.goods is None or quantity * self.goods.weight(sku) <= self.room_on(unit) + 1e-6
+        return self.goods is None or quantity * self.goods.weight(sku) <= self.room_on(unit) + TOLERANCE
 
     def room_on(self, unit: int) -> float:
         """Returns the room on a unit, besides what is expected: by weight where units have limits,
         else the pieces that its bins take."""
         if self.goods:
-            return self.goods.limits.get(unit, 0.0) - self._load[unit]
+            row = self._row_of_unit[unit]
+            return float(self._limit[row] - self._load[row])
         return sum(bin_.room for bin_ in self.of_unit[unit])
 
     def bundles_that_fit(self, unit: int) -> float:
@@ -191,7 +235,7 @@ class Inventory:
         """Counts pieces on a unit, or on their way to it."""
         if self.goods:
             weight = quantity * self.goods.weight(sku)
-            self._load[bin_.unit] += weight
+            self._load[self._row_of_unit[bin_.unit]] += weight
             self._weight += weight if there else 0.0
 
     def move(self, bin_: Bin, sku: str, quantity: int, reason: Reason, **context: Any) -> None:
@@ -293,7 +337,7 @@ class Inventory:
         self.capacity -= 0 if self.goods else bin_.capacity
         self._kept_for[bin_.sku] -= 1
         self._forget_room(bin_)
-        self.empty.pop(bin_.bin_id, None)
+        self._forget_empty(bin_)
         del self.bins[bin_.bin_id]
         self.of_unit[bin_.unit].remove(bin_)
         if not self.of_unit[bin_.unit]:
@@ -330,15 +374,26 @@ class Inventory:
 
     def _measure(self, bin_: Bin) -> None:
         if bin_.empty:
-            self.empty[bin_.bin_id] = bin_
+            self._note_empty(bin_)
         else:
-            self.empty.pop(bin_.bin_id, None)
+            self._forget_empty(bin_)
         if bin_.room < ROOMY:
             self._forget_room(bin_)
         elif bin_.bin_id not in self._roomy:
             self._roomy.add(bin_.bin_id)
             self.roomy[bin_.sku] += 1
             self.room_changed.add(bin_.sku)
+
+    def _note_empty(self, bin_: Bin) -> None:
+        if bin_.bin_id in self.empty:
+            return
+        self.empty[bin_.bin_id] = bin_
+        self._empties[self._row_of_unit[bin_.unit]] += 1
+        heappush(self._first_empties[bin_.unit], bin_.bin_id)
+
+    def _forget_empty(self, bin_: Bin) -> None:
+        if self.empty.pop(bin_.bin_id, None):
+            self._empties[self._row_of_unit[bin_.unit]] -= 1
 
     def _forget_room(self, bin_: Bin) -> None:
         if bin_.bin_id in self._roomy:
