@@ -8,11 +8,11 @@ sum of its moves. Reserved pieces are promised to a pick; expected ones are on t
 from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Iterable
 from enum import StrEnum
-from heapq import heappop, heappush
 from typing import Any
 
 import numpy as np
 
+from warehouse_operations.goods.empty_bins import EmptyBins
 from warehouse_operations.goods.kinds import Goods
 
 ROOMY = 12  # pieces, of the largest bundle
@@ -84,22 +84,13 @@ class Inventory:
         goods: Goods | None = None,
     ) -> None:
         self.goods = goods
-        # Units, ascending; and of each the weight on it or expected, the weight that it holds, and
-        # the number of its empty bins.
-        self._units = np.unique(np.array([bin_.unit for bin_ in bins], np.int64))
-        self._row_of_unit = {unit: row for row, unit in enumerate(self._units.tolist())}
-        self._load = np.zeros(len(self._units))
-        limits = goods.limits if goods else {}
-        self._limit = np.array([limits.get(unit, 0.0) for unit in self._row_of_unit])
-        self._empties = np.zeros(len(self._units), np.int32)
-        # Its empty bins by id, a heap for each unit; others are among them until they come first.
-        self._first_empties: dict[int, list[int]] = defaultdict(list)
+        self._load: dict[int, float] = defaultdict(float)  # weight on a unit or expected, by id
         self._weight = 0.0  # of all pieces
         self.bins = {bin_.bin_id: bin_ for bin_ in bins}
         self.of_unit: dict[int, list[Bin]] = defaultdict(list)
         self._of_sku: dict[str, dict[int, Bin]] = defaultdict(dict)
         self.capacity = self.total = self.expected = 0
-        self.empty: dict[int, Bin] = {}  # bins without anything, by id
+        self._empty = EmptyBins(bins)
         self._kept_for = Counter(bin_.sku for bin_ in bins)  # bins by present or last SKU
         # SKUs without a bin, by the bin that they get once it is empty.
         self._heirs: dict[int, str] = {}
@@ -182,24 +173,15 @@ class Inventory:
 
     def _empty_places(self, sku: str, quantity: int, units: Collection[int]) -> list[Bin]:
         if not self.goods:
-            bins = (bin_ for bin_ in self.empty.values() if bin_.unit in units)
+            bins = (bin_ for bin_ in self._empty if bin_.unit in units)
             return [bin_ for bin_ in bins if self.takes(bin_, sku, quantity)]
-        weight = quantity * self.goods.weight(sku)
-        fits = (self._empties > 0) & (weight <= self._limit - self._load + TOLERANCE)
-        firsts = (self._first_empty(u) for u in self._units[fits].tolist() if u in units)
+        roomy = self._empty.units_with(quantity * self.goods.weight(sku) - TOLERANCE)
+        firsts = (self._empty.first_on(unit) for unit in roomy if unit in units)
         return [bin_ for bin_ in firsts if self.takes(bin_, sku, quantity)]
-
-    def _first_empty(self, unit: int) -> Bin:
-        ids = self._first_empties[unit]
-        while ids[0] not in self.empty:
-            heappop(ids)
-        return self.empty[ids[0]]
 
     def empties(self, units: Collection[int]) -> dict[int, int]:
         """Returns the numbers of empty bins on those of some units that have any, by unit."""
-        some = self._empties > 0
-        pairs = zip(self._units[some].tolist(), self._empties[some].tolist())
-        return {unit: count for unit, count in pairs if unit in units}
+        return {unit: count for unit, count in self._empty.counts() if unit in units}
 
     def takes(self, bin_: Bin, sku: str, quantity: int) -> bool:
         """Returns whether a quantity of a SKU can be put into a bin.
@@ -221,8 +203,7 @@ class Inventory:
         """Returns the room on a unit, besides what is expected: by weight where units have limits,
         else the pieces that its bins take."""
         if self.goods:
-            row = self._row_of_unit[unit]
-            return float(self._limit[row] - self._load[row])
+            return self.goods.limits.get(unit, 0.0) - self._load[unit]
         return sum(bin_.room for bin_ in self.of_unit[unit])
 
     def bundles_that_fit(self, unit: int) -> float:
@@ -235,7 +216,8 @@ class Inventory:
         """Counts pieces on a unit, or on their way to it."""
         if self.goods:
             weight = quantity * self.goods.weight(sku)
-            self._load[self._row_of_unit[bin_.unit]] += weight
+            self._load[bin_.unit] += weight
+            self._empty.set_room(bin_.unit, self.room_on(bin_.unit))
             self._weight += weight if there else 0.0
 
     def move(self, bin_: Bin, sku: str, quantity: int, reason: Reason, **context: Any) -> None:
@@ -337,7 +319,7 @@ class Inventory:
         self.capacity -= 0 if self.goods else bin_.capacity
         self._kept_for[bin_.sku] -= 1
         self._forget_room(bin_)
-        self._forget_empty(bin_)
+        self._empty.discard(bin_)
         del self.bins[bin_.bin_id]
         self.of_unit[bin_.unit].remove(bin_)
         if not self.of_unit[bin_.unit]:
@@ -374,26 +356,15 @@ class Inventory:
 
     def _measure(self, bin_: Bin) -> None:
         if bin_.empty:
-            self._note_empty(bin_)
+            self._empty.add(bin_)
         else:
-            self._forget_empty(bin_)
+            self._empty.discard(bin_)
         if bin_.room < ROOMY:
             self._forget_room(bin_)
         elif bin_.bin_id not in self._roomy:
             self._roomy.add(bin_.bin_id)
             self.roomy[bin_.sku] += 1
             self.room_changed.add(bin_.sku)
-
-    def _note_empty(self, bin_: Bin) -> None:
-        if bin_.bin_id in self.empty:
-            return
-        self.empty[bin_.bin_id] = bin_
-        self._empties[self._row_of_unit[bin_.unit]] += 1
-        heappush(self._first_empties[bin_.unit], bin_.bin_id)
-
-    def _forget_empty(self, bin_: Bin) -> None:
-        if self.empty.pop(bin_.bin_id, None):
-            self._empties[self._row_of_unit[bin_.unit]] -= 1
 
     def _forget_room(self, bin_: Bin) -> None:
         if bin_.bin_id in self._roomy:
