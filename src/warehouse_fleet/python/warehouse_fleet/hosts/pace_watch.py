@@ -6,7 +6,8 @@ from collections import deque
 from itertools import pairwise
 from statistics import median
 
-MEANT = 0.1  # simulated time between two decisions [s]
+from warehouse_fleet.hosts.fleet_driver import UPDATE
+
 TOO_LONG = 1.0  # between two decisions, after which robots wait for the coordinator [s]
 DECISIONS = 50  # that are looked at
 REPEATED = 600.0  # after which it is said again, by the wall clock [s]
@@ -36,9 +37,9 @@ class PaceWatch:
         if apart < TOO_LONG:
             return ""
         self._said = wall
-        most = MEANT * (DECISIONS - 1) / (wall - self._decisions[0][1])
+        most = UPDATE * (DECISIONS - 1) / (wall - self._decisions[0][1])
         return (
             f"simulated time runs away from the coordinator: {apart:.1f} s pass between two of its "
-            f"decisions, of which {MEANT:g} s are meant. Robots wait for it, so what they deliver "
+            f"decisions, of which {UPDATE:g} s are meant. Robots wait for it, so what they deliver "
             f"says nothing about the warehouse; start with rtf:={most:.2g} or less"
         )
