@@ -49,7 +49,6 @@ def test_an_instance(tmp_path, write, notes):
     assert formats.convert(path, layout) == notes
     file = layout_file.read(layout)
     before, after = instance.plan, plan(file)
-    lanes = before.lane
     for name in ("passable", "storage", "lane"):
         assert (getattr(before, name) == getattr(after, name)).all()
     assert (before.exits[~before.storage] == after.exits[~before.storage]).all()

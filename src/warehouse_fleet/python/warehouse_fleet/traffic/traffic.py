@@ -169,8 +169,8 @@ class Traffic:
 
     def all_ahead(self) -> np.ndarray:
         """Returns, (n,), the robot that each robot waits for: by the plan, because it holds the
-        next cell of the lane or the end of its short cut, or because it stands where this one has to
-        go, or in the only way to the station there; or NOWHERE."""
+        next cell of the lane or the end of its short cut, or because it stands where this one has
+        to go, or in the only way to the station there; or NOWHERE."""
         robots = self.robots
         ahead = robots.waits_for.copy()
         after = np.where(robots.cell != NOWHERE, self._after[robots.cell], NOWHERE)

@@ -71,8 +71,10 @@ class Robot:
 class Trips:
     """Transports from their start to their end, each phase an event of `queue`.
 
-    time: simulated [s]. book: all transports, with the events that they cause. ways: how often each (service or end cell, other cell, outbound, ride) was driven
-    with a load. arrive: is called with each transport whose unit has come to its destination.
+    time: simulated [s]. book: all transports, with the events that they cause. odometer: counts
+    what all robots drive. ways: how often each (service or end cell, other cell, outbound, ride)
+    was driven with a load. arrive: is called with each transport whose unit has come to its
+    destination.
     """
 
     def __init__(

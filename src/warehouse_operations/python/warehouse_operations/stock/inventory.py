@@ -197,7 +197,10 @@ class Inventory:
         return bin_.room >= quantity and (bin_.sku == sku or may_move_in)
 
     def _weight_fits(self, unit: int, sku: str, quantity: int) -> bool:
-        return self.goods is None or quantity * self.goods.weight(sku) <= self.room_on(unit) + TOLERANCE
+        return (
+            self.goods is None
+            or quantity * self.goods.weight(sku) <= self.room_on(unit) + TOLERANCE
+        )
 
     def room_on(self, unit: int) -> float:
         """Returns the room on a unit, besides what is expected: by weight where units have limits,

@@ -165,8 +165,8 @@ export class Drawing {
 
   /** Whether a short cut leads farther ahead in a new queue of a station, or into it. */
   isAhead({ queue, service }, cells, [from, to]) {
-    const at = (way, cell) => way.findIndex((c) => same(c, cell)), way = [...cells, service];
-    return at(way, to) > Math.max(0, at(way, from) + 1) && (at(queue, from) < 0 || at(way, from) >= 0);
+    const way = [...cells, service], begin = indexOf(way, from);
+    return indexOf(way, to) > Math.max(0, begin + 1) && (begin >= 0 || indexOf(queue, from) < 0);
   }
 
   // --- sums
@@ -210,4 +210,5 @@ export class Drawing {
   }
 }
 
+const indexOf = (cells, cell) => cells.findIndex((c) => same(c, cell));
 const without = (cells, cell) => cells.filter((c) => !same(c, cell));

@@ -85,7 +85,11 @@ def _items(path: PathName, instance: Instance) -> int:
 
 def _unsaid(path: PathName, instance: Instance) -> list[str]:
     short = cells_of((instance.paths & ~instance.plan.exits) != 0)
-    out = [f"a lane has one way out, and ways in from streets; others end at {named(short)}"] if short else []
+    out = (
+        [f"a lane has one way out, and ways in from streets; others end at {named(short)}"]
+        if short
+        else []
+    )
     for station in instance.plan.stations:
         missing = [
             part

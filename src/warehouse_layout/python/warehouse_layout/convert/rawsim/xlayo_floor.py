@@ -237,9 +237,7 @@ class _Floor:
             cuts = tuple(self._short_cuts(side, exit_, numbers))
             yield Station("", kind, numbers, len(cells) - self._p.buffer, short_cuts=cuts)
 
-    def _short_cuts(
-        self, side: str, exit_: int, cells: np.ndarray
-    ) -> Iterator[tuple[int, int]]:
+    def _short_cuts(self, side: str, exit_: int, cells: np.ndarray) -> Iterator[tuple[int, int]]:
         """Yields the steps into each second row of a buffer, but for the first: from the hall, and
         from the deep end of the row before, which is where that begins."""
         p = self._p
