@@ -28,7 +28,6 @@ from warehouse_msgs.srv import CreateWarehouse
 from warehouse_sim.tracker import topics_allowed
 
 PATIENCE = 120  # [s]
-UNDER_WAY = 40  # storage units that were delivered, after which a fleet's stations are busy
 TICK = os.sysconf("SC_CLK_TCK")
 NODE = "kiva_world_node"
 
@@ -148,10 +147,6 @@ class Session:
         with urllib.request.urlopen(f"http://localhost:{self._page}/api/v1/coordinator") as answer:
             return json.load(answer)["transports"]["delivered"]
 
-    def wait_for_deliveries(self, count):
-        """Until so many storage units were brought to stations."""
-        self.wait(lambda: self.delivered() >= count, f"{count} deliveries", pause=1)
-
     def nodes(self):
         """Program names by process id: all that roslaunch started, and itself."""
         out, pids = {}, [launch.pid for launch in self._launches]
@@ -240,21 +235,21 @@ def unheard(seconds):
         return client(session, seconds, "--no-listen")
 
 
-def working(seconds):
-    """`huge` with its robots at work as a fleet at four times real time, once its stations are
-    busy: with rtf 0 time flies while robots wait for their coordinator."""
-    with Session(size="huge", rtf=4, coordinator="true", transports="random") as session:
-        session.item_topics_stand()
-        session.wait_for_deliveries(UNDER_WAY)
+def working(minutes):
+    """`huge` with its robots at work as a fleet for that long, from standstill and as fast as its
+    coordinator can follow."""
+    with Session(size="huge", rtf=0, coordinator="true", transports="random") as session:
+        session.wait(lambda: session.delivered() >= 0, "the coordinator", pause=0.02)
         before, delivered = session.cpu(), session.delivered()
         simulated, begin = session.simulated(), time.monotonic()
-        time.sleep(seconds)
+        while session.simulated() < simulated + 60 * minutes:
+            time.sleep(0.02)
         took, simulated = time.monotonic() - begin, session.simulated() - simulated
         cores = {name: (used - before.get(name, 0)) / took for name, used in session.cpu().items()}
         return {
-            "seconds": seconds,
+            "minutes": minutes,
             "rtf": simulated / took,
-            "delivered_per_second": (session.delivered() - delivered) / simulated,
+            "delivered": session.delivered() - delivered,
             "cores": cores,
             "memory_mb": session.memory(),
         }

@@ -30,6 +30,7 @@
 #include "ros/services/models/spawn_services.h"
 #include "ros/services/models/state_services.h"
 #include "ros/services/simulation/checkpoint_services.h"
+#include "ros/services/simulation/pace_topic.h"
 #include "ros/services/simulation/performance_topic.h"
 #include "ros/services/simulation/physics_services.h"
 #include "ros/services/simulation/simulation_services.h"
@@ -46,8 +47,8 @@
 #include "ros/services/warehouse/visualization_topics.h"
 #include "ros/simulation/simulation_thread.h"
 #include "ros/transport/callback_thread.h"
-#include "ros/transport/listen_backlog.h"
 #include "ros/transport/publish_queue.h"
+#include "ros/transport/server_socket.h"
 #include "ros/transport/subscriber_counts.h"
 #include "ros/transport/unadvertise.h"
 #include "settings.h"
@@ -96,7 +97,7 @@ void announce(const kiva::World& world, const Settings& settings, double rtf) {
 }
 
 int run(ros::NodeHandle& root, ros::NodeHandle& node) {
-  raiseListenBacklog();
+  tuneServerSocket();
   if (!ros::param::has("/use_sim_time")) ros::param::set("/use_sim_time", true);
   Settings settings = readSettings(node);
   const kiva::WorldDescription description = load(settings);
@@ -127,6 +128,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   JointServices joint_services(node, simulation);
   LightServices light_services(node, simulation);
   PhysicsServices physics_services(node, world, simulation);
+  PaceTopic pace_topic(root, simulation);
   PerformanceTopic performance_topic(node, simulation);
   VisualizationTopics visualization_topics(root, simulation);
   ModelSources sources(settings.world_file, description);

@@ -143,27 +143,36 @@ void Reporter::whenPublished(const kiva::World& world, std::function<void()> don
   send(std::move(out));
 }
 
-void Reporter::afterRequests(kiva::World& world, bool paused, bool moved) {
+void Reporter::afterRequests(kiva::World& world, bool stands, bool moved) {
   Snapshot out;
   out.time = world.time();
   addNews(world, &out);
   updateSubscribedRobots();
   // Subscribers get the clock at once while time stands still, or after it jumped.
   const bool reset = world.steps() < last_steps_;
-  if ((paused || reset) && world.steps() != clock_sent_steps_) {
+  if ((stands || reset) && world.steps() != clock_sent_steps_) {
     out.reliable_clock = true;
     clock_sent_steps_ = world.steps();
   }
-  if (moved && (paused || reset)) {
+  if (moved && (stands || reset)) {
     addStatuses(world, &out);
     addFleet(world, &out);
     addOdometry(world, &out);
     if (reset) addTransforms(world, &out);  // tf ignores a second one with the same time
   }
-  if (paused) addForNewcomers(world, &out);
+  if (stands) addForNewcomers(world, &out);
   addObjects(world, &out);
   last_steps_ = world.steps();
   send(std::move(out));
+}
+
+void Reporter::held(const kiva::World& world) {
+  Snapshot out;
+  out.time = world.time();
+  out.reliable_clock = world.steps() != clock_sent_steps_;
+  clock_sent_steps_ = world.steps();
+  addFleet(world, &out);
+  send(std::move(out), true);
 }
 
 void Reporter::addForNewcomers(const kiva::World& world, Snapshot* out) {

@@ -37,8 +37,12 @@ class Reporter {
 
   /// Reports a step. `reliable`: nothing is dropped, however slow a subscriber is.
   void afterStep(kiva::World& world, bool reliable = false);
-  /// Reports requests that were served between steps. `moved`: models may have been moved.
-  void afterRequests(kiva::World& world, bool paused, bool moved);
+  /// Reports requests that were served between steps. `stands`: time stands still; `moved`: models
+  /// may have been moved.
+  void afterRequests(kiva::World& world, bool stands, bool moved);
+  /// Reports the clock and the fleet, whatever is due and however slow a subscriber is: time waits
+  /// for subscribers, which would wait for these.
+  void held(const kiva::World& world);
   /// Reports a command that was refused before it reached the world.
   void refused(const kiva::World& world, int kiva_id, const std::string& text);
   /// Begins a new timeline, since the world was reset or restored: orders of the old one are void.

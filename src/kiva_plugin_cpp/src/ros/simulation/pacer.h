@@ -17,6 +17,8 @@ class Pacer {
   Pacer(double step_size, double rtf);
 
   bool paced() const { return rtf_ > 0; }
+  /// Returns whether simulated time may pass faster than the wall clock.
+  bool isFast() const { return !paced() || rtf_ > 1; }
   /// Restarts the pace at `now`.
   void restart(WallClock::time_point now);
   /// Returns the number of steps that are due; without pacing, the number to make before the clock

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kMostWaitingCommands = 100000;
 constexpr auto kAbandonedCheck = std::chrono::milliseconds(100);
+constexpr auto kHeldCheck = std::chrono::milliseconds(100);
 
 }  // namespace
 
@@ -135,6 +136,7 @@ double SimulationThread::restore(const std::string& checkpoint) {
 void SimulationThread::restoreHere(kiva::World& world, const std::string& checkpoint) {
   const std::vector<std::string> before = world.modelNames();
   world.restore(checkpoint);
+  pace_limit_.releaseAll();  // what they said was of another timeline
   moved_ = changed_ = true;
   reporter_.beginTimeline();
   reporter_.restored(world, before);
@@ -146,6 +148,7 @@ void SimulationThread::reset(bool time_too) {
   move([this, time_too](kiva::World& world) {
     for (StepHook* hook : hooks_) hook->beforeReset(world);
     world.reset(time_too);
+    pace_limit_.releaseAll();
     reporter_.beginTimeline();
     refuseCommands("the world was reset before its next step");
   });
@@ -156,6 +159,14 @@ void SimulationThread::pause(bool paused) {
     if (paused_ != paused) startClocks();
     paused_ = paused;
   });
+}
+
+void SimulationThread::limitPace(const std::string& node, double until) {
+  post([this, node, until](kiva::World&) { pace_limit_.allow(node, until, WallClock::now()); });
+}
+
+void SimulationThread::releasePace(const std::string& node) {
+  post([this, node](kiva::World&) { pace_limit_.release(node); });
 }
 
 void SimulationThread::retime(double step_size, double rtf) {
@@ -188,7 +199,7 @@ void SimulationThread::loop() {
 bool SimulationThread::waitForWork(Requests* requests) {
   // Waits an hour at most, since waiting until the end of all time overflows in some libraries.
   auto until = std::min(reporter_.nextDue(), WallClock::now() + std::chrono::hours(1));
-  if (runs()) until = std::min(until, pacer_.next());
+  if (runs()) until = std::min(until, held_ ? WallClock::now() + kHeldCheck : pacer_.next());
   if (!step_requests_.empty()) until = WallClock::time_point::min();
   std::unique_lock<std::mutex> lock(mutex_);
   if (until > WallClock::time_point::min()) {
@@ -206,19 +217,40 @@ void SimulationThread::handleRequests(const Requests& requests) {
   if (std::exchange(changed_, false)) {
     for (StepHook* hook : hooks_) hook->onChange();
   }
-  reporter_.afterRequests(world_, !runs(), std::exchange(moved_, false));
+  reporter_.afterRequests(world_, !runs() || held_, std::exchange(moved_, false));
 }
 
 void SimulationThread::advance() {
+  if (isHeld()) return hold();
+  held_ = false;
   const int due = pacer_.due(WallClock::now());
   int steps = 0;
   // At least one step, or a flood of requests would stop time.
-  while (steps < due && (steps == 0 || !attention_)) {
+  while (steps < due && (steps == 0 || !attention_) && !isHeld()) {
     if (!stepOnce(false)) return;
     pacer_.stepped();
     ++steps;
   }
   measure(steps);
+}
+
+bool SimulationThread::isHeld() { return pacer_.isFast() && pace_limit_.holds(world_.time()); }
+
+/// Time stands still, so subscribers get what has not been due yet: they may wait for it, while the
+/// world waits for them.
+void SimulationThread::hold() {
+  const auto now = WallClock::now();
+  if (!std::exchange(held_, true)) {
+    held_since_ = now;
+    reporter_.held(world_);
+  }
+  for (const std::string& node : pace_limit_.releaseSilent(world_.time(), held_since_, now)) {
+    ROS_WARN(
+        "%s has kept simulated time waiting for 10 s at %g s: time passes without it until it "
+        "publishes on /warehouse/pace again",
+        node.c_str(), world_.time());
+  }
+  measure(0);
 }
 
 void SimulationThread::runSteps(StepRequest& request) {

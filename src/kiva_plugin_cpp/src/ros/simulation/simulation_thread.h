@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "kiva_plugin_cpp/world.h"
+#include "pace_limit.h"
 #include "pacer.h"
 #include "ros/publishing/reporter.h"
 #include "step_hook.h"
@@ -96,6 +97,11 @@ class SimulationThread {
   void pause(bool paused);
   /// Changes the step size and the pace (as in the constructor). For the step thread.
   void retime(double step_size, double rtf);
+  /// Has simulated time wait for a node: it passes `until` [s] only after another call for that
+  /// node. Time that passes as fast as the wall clock, or slower, waits for no one, like step().
+  void limitPace(const std::string& node, double until);
+  /// Has time wait for that node no longer.
+  void releasePace(const std::string& node);
   bool paused() const { return paused_; }
   double targetFactor() const { return target_factor_; }
   /// Returns simulated seconds a wall second, measured over the last second.
@@ -119,6 +125,8 @@ class SimulationThread {
   void advance();
   void runSteps(StepRequest& request);
   bool stepOnce(bool reliable);  ///< Returns false if a hook prevents further steps.
+  bool isHeld();                 ///< Returns whether time waits for a node that keeps pace.
+  void hold();
   void takeOrders(const Orders& orders);
   void postCommands();
   void refuse(const Orders& orders, const std::string& why);
@@ -130,6 +138,9 @@ class SimulationThread {
   kiva::World& world_;
   Reporter& reporter_;
   Pacer pacer_;
+  PaceLimit pace_limit_;
+  bool held_ = false;                 ///< Time waits for a node that keeps pace,
+  WallClock::time_point held_since_;  ///< since then.
   std::atomic<double> target_factor_;
   std::thread thread_;
   std::atomic<bool> failed_{false};

@@ -2,12 +2,12 @@
 """The coordinator as a ROS node: the fleet of a running warehouse, driven over its topics."""
 
 import threading
-import time as wall_clock
 from typing import Any
 
 import numpy as np
 import rospy
 
+from warehouse_client.pace import PaceKeeper
 from warehouse_fleet.hosts.controller import Decision, FleetController, Observation
 from warehouse_fleet.hosts.coordinator_messages import (
     follow_message,
@@ -16,7 +16,6 @@ from warehouse_fleet.hosts.coordinator_messages import (
 )
 from warehouse_fleet.hosts.coordinator_services import CoordinatorServices, check_mode
 from warehouse_fleet.hosts.event_publisher import EventPublisher
-from warehouse_fleet.hosts.pace_watch import PaceWatch
 from warehouse_fleet.hosts.random_transports import RandomTransports
 from warehouse_fleet.hosts.warehouse_watch import WarehouseWatch, is_same_floor, request_map
 from warehouse_fleet.hosts.zone_keeper import ZoneKeeper
@@ -39,6 +38,7 @@ from warehouse_msgs.msg import (
 from warehouse_msgs.srv import KeepRobotMode
 
 LATENCY, LAG = 0.4, 0.05  # from a report to what is released for it, over topics; of plans [s]
+LOOKAHEAD = 0.3  # of a fast world, beyond the report that was acted upon [s]; less than LATENCY
 OVERTAKEN = 1.0  # a report that is older by more comes from another world [s]
 STATE_PERIOD, PATHS_PERIOD = 1.0, 0.2  # [s], simulated
 NOT_YET = "the coordinator has not seen the warehouse yet"
@@ -74,7 +74,7 @@ class CoordinatorNode:
         self._timeline = 0  # of the world, as reports have it
         self._kept = np.zeros(0, np.uint8)  # the robots' modes, as the world keeps them
         self._next_state = self._next_paths = 0.0
-        self._pace = PaceWatch()
+        self._pace = PaceKeeper(LOOKAHEAD)
         publish = rospy.Publisher
         self._ordering = publish("warehouse/fleet_orders", FleetOrders, queue_size=1000)
         self._state = publish("warehouse/coordinator", CoordinatorState, latch=True, queue_size=1)
@@ -88,10 +88,20 @@ class CoordinatorNode:
     def run(self) -> None:
         """Controls the fleet until ROS shuts down."""
         while not rospy.is_shutdown():
-            if self._watch.news.wait(0.2):
-                self._watch.news.clear()
+            has_news = self._watch.news.wait(0.2)
+            self._watch.news.clear()
+            fleet = self._watch.fleet
+            # What it lacks to begin may come after the only report while time stands still.
+            if has_news or (fleet is not None and self.controller is None):
                 with self.lock:
-                    self._step(self._watch.fleet)
+                    self._step(fleet)
+                self._keep_pace(fleet)
+
+    def _keep_pace(self, fleet: FleetState) -> None:
+        if self.controller is not None:
+            self._pace.acted_upon(fleet.stamp)
+        else:
+            self._pace.release()
 
     @property
     def reason(self) -> str:
@@ -124,8 +134,6 @@ class CoordinatorNode:
         self._keep_modes(was_gone & ~controller.robots.gone, reports)
         self._order(decision)
         self._publish_events(time)
-        if why := self._pace.decided(time, wall_clock.monotonic()):
-            rospy.logwarn(why)
         self._zones.advance(controller, time, state_is_due)
         if time >= self._next_paths and self._paths.get_num_connections():
             self._next_paths = time + PATHS_PERIOD

@@ -14,6 +14,7 @@ from sqlalchemy.engine import Engine
 from warehouse_client import identity
 from warehouse_client.build_transaction import is_building
 from warehouse_client.coordinator import CoordinatorClient
+from warehouse_client.pace import PaceKeeper, wait_beyond
 from warehouse_client.unit_messages import unit_ids
 from warehouse_client.warehouse import WarehouseClient
 from warehouse_layout.file import layout_file
@@ -47,6 +48,7 @@ from warehouse_operations.store.database import Database
 
 FAREWELL = 1.0  # time for subscribers to get the last notice [s, wall]
 CYCLE = 0.1  # between two steps of the shift [s]
+LOOKAHEAD = 0.3  # of a fast world, beyond the last step of the shift [s]
 # Roles of policies of a shift with its own fleet; here another node drives.
 OF_THE_COORDINATOR = ("storage", "robots", "idle", "charging")
 STATIONS_PERIOD, KPIS_PERIOD = 1.0, 10.0  # [s], simulated
@@ -72,6 +74,7 @@ class OperationsNode:
         self._log = FleetLog()
         self._warned: set[str] = set()
         self._last_step = clock()
+        self._pace = PaceKeeper(LOOKAHEAD)
         self._warehouse = WarehouseClient(rospy, self._on_fleet)
         self._coordinator = CoordinatorClient(rospy)
         self._notices = _publisher("notices", msg.Notices)
@@ -243,7 +246,10 @@ class OperationsNode:
                     self._begin_again(now)
                 else:
                     self._step(now)
-            _sleep_a_cycle()
+            self._pace.acted_upon(rospy.Time.from_sec(now))
+            # From `now` on: the world may have passed it, and wait for this shift before it has
+            # passed a cycle more.
+            wait_beyond(now, CYCLE)
 
     def _begin_again(self, now: float) -> None:
         """Begins another shift after the world was reset, restored or undone.
@@ -253,6 +259,7 @@ class OperationsNode:
         rospy.logwarn(f"the world jumped from {self._shift.now:g} s to {now:g} s")
         self._shift.end(self._figures())
         self._shift.journal.flush()
+        self._pace.release()  # its warehouse may take a while to build
         self._wait_for_warehouse()
         self._begin()
 

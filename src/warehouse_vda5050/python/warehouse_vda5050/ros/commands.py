@@ -56,7 +56,7 @@ class CommandTopics:
             ("cancel", Cancel, self._on_cancel),
             ("stop", Stop, self._on_stop),
         ):
-            subscribe(rospy, topic, kind, take, queue_size=QUEUE, tcp_nodelay=True)
+            subscribe(rospy, topic, kind, take, queue_size=QUEUE)
         self._heard = {rospy.resolve_name(topic): topic for topic in ("lift", *OTHERS)}
         hear(rospy, self._on_heard)
 

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pace_limit.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace kiva_ros {
+namespace {
+
+constexpr auto kMostSilence = std::chrono::seconds(10);
+constexpr double kRounding = 1e-6;  // [s], less than a step
+
+}  // namespace
+
+void PaceLimit::allow(const std::string& node, double until, WallClock::time_point now) {
+  grants_[node] = {until, now};
+}
+
+bool PaceLimit::holds(double time) const {
+  return std::any_of(grants_.begin(), grants_.end(),
+                     [time](const auto& entry) { return entry.second.until <= time + kRounding; });
+}
+
+std::vector<std::string> PaceLimit::releaseSilent(double time, WallClock::time_point stands_since,
+                                                  WallClock::time_point now) {
+  std::vector<std::string> out;
+  for (auto it = grants_.begin(); it != grants_.end();) {
+    const Grant& grant = it->second;
+    const auto silent_since = std::max(grant.given_at, stands_since);
+    const bool is_silent = grant.until <= time + kRounding && now >= silent_since + kMostSilence;
+    if (is_silent) out.push_back(it->first);
+    it = is_silent ? grants_.erase(it) : std::next(it);
+  }
+  return out;
+}
+
+}  // namespace kiva_ros
