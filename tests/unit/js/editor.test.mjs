@@ -226,3 +226,19 @@ test('a view finds the cell beneath a point, at any zoom', () => {
   }
   assert.deepEqual([0.3, 1, 3, 7, 18].map(stepOf), [0.5, 1, 5, 10, 20]);
 });
+
+test('short cuts of a queue are written, move with it, and go with its cells', () => {
+  const drawing = drawn('..A..', '.....');
+  const [station] = drawing.stations;
+  drawing.setLane(station, 'queue', [[0, 0], [0, 1], [1, 1]]);
+  station.short_cuts = [[[2, 0], [2, 1]], [[1, 0], [1, 1]]];
+  assert.match(textOf(drawing).text, /"short_cuts":\[\[\[2,0\],\[2,1\]\],\[\[1,0\],\[1,1\]\]\]/);
+  assert.deepEqual(drawingOf(jsonOf(drawing)).stations[0].short_cuts, station.short_cuts);
+  const block = mirrored(copied(drawing, drawing.bounds()), 'x'), other = drawn('.....', '.....');
+  putIn(other, block, [0, 2]);
+  assert.deepEqual(other.stations[0].short_cuts, [[[2, 2], [2, 3]], [[3, 2], [3, 3]]]);
+  drawing.setLane(station, 'queue', [[1, 1]]);
+  assert.deepEqual(station.short_cuts, [[[2, 0], [2, 1]]]);
+  paint(drawing, [[4, 1]], 'A');
+  assert.deepEqual(drawing.stations[0].short_cuts, []);
+});

@@ -60,8 +60,9 @@ HALL, BUFFER, CROSSING = 2, 4, 4  # streets before the stations; cells before th
 def write_hall_instance(path, stations=2, blocks=5, bots=16, filled=0.85):
     """Returns an instance of the MaTi kind with these counts of picking and replenishing stations.
 
-    Their queues wind over three rows, with a way to cut them short; before them are a hall of two
-    streets, one up and one down, and a buffer of one-way rows. Robots stand in the streets at
+    Their queues wind over three rows, the last of which has two short cuts, from the hall and from
+    the deep end of the row before; before them are a hall of two streets, one up and one down, and
+    a buffer of one-way rows. Robots stand in the streets at
     first, and are slow: 0.5 m/s², 3 s a lift. blocks is odd, so that the outermost streets go
     round.
     """
@@ -96,10 +97,14 @@ def write_hall_instance(path, stations=2, blocks=5, bots=16, filled=0.85):
         queue = [*rising[3], *rising[2][::-1], *rising[1]]
         lane = [*queue, *out[::-1]]
         _chain(join, [(right + 1, bottom + 3), *lane, (right + 1, bottom)])
-        join(rising[2][-1], rising[1][-1])
+        cuts = [((right + 1, bottom + 1), rising[1][0]), (rising[2][-1], rising[1][-1])]
+        for cut in cuts:
+            join(*cut)
         queues["OutputStation", k] = [out[-1], *queue[::-1]]
         # The same turned by half a turn.
         turned = [(LANE - 1 - (x - right - 2), rows - 1 - y) for x, y in lane]
+        for cut in cuts:
+            join(*[(LANE - 1 - (x - right - 2), rows - 1 - y) for x, y in cut])
         entry, leave = rows - 1 - (bottom + 3), rows - 1 - bottom
         _chain(join, [(LANE, entry), *turned, (LANE, leave)])
         count = len(queue) + 1

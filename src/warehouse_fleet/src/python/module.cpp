@@ -249,6 +249,7 @@ their tables in time. seconds: by the clock at most [s]; without it equal plans 
           "load", [](Started& started, const std::string& path) { started.planner->load(path); },
           py::arg("path"),
           "Reads what was prepared for the same floor; raises RuntimeError for any other file.");
+  module.attr("PURSUING") = EpibtOptions().pursuing;
   module.def("epibt", &startEpibt, py::arg("floor"), py::arg("rules") = Rules(),
              py::arg("seed") = 1, R"(Returns the planner of this package, started on a floor.
 

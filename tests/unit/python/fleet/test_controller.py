@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+from instance_file import write_hall_instance
 from operations_site import site
 
 from warehouse_fleet.hosts.controller import FleetController, Observation
@@ -11,6 +12,7 @@ from warehouse_fleet.transports.lifts import LiftOrder
 from warehouse_fleet.transports.transport_book import Kind, Step
 from warehouse_fleet.transports.unit_map import UnitPoses
 from warehouse_fleet.transports.waiting import Waiting
+from warehouse_layout.convert.rawsim.instance import read_floor
 from warehouse_layout.message_enums import FailureKind, RobotMode, State, Status
 
 STATION = "pick1"
@@ -259,3 +261,21 @@ def only_way_on(cell):
     ahead = np.asarray(PLAN.floor().edges(True))[cell]
     (only,) = ahead[ahead != NOWHERE]
     return int(only)
+
+
+def test_a_robot_waits_for_the_one_at_the_end_of_its_short_cut(tmp_path):
+    """The next cell of the lane is free, but that is the longer way."""
+    plan = read_floor(write_hall_instance(tmp_path / "a.xinst")).plan
+    station = plan.stations[0]
+    controller = FleetController(plan, np.array([1, 2]), seed=1)
+    for cell, end in station.short_cuts:
+        reports = np.zeros(2, REPORT)
+        reports["kiva_id"] = 1, 2
+        reports["x"], reports["y"] = plan.point_of(np.array([end, cell]))
+        controller.traffic.update_robots(controller.traffic.time + 0.1, reports)
+        robots = controller.robots
+        robots.goal[:] = station.service_cell
+        assert controller.traffic.all_ahead()[1] == 0, cell
+        robots.goal[1] = robots.cell[1]  # without work there
+        assert controller.traffic.all_ahead()[1] == NOWHERE, cell
+    controller.close()

@@ -2,12 +2,17 @@
 """The floor plan that a world tells: what was laid out comes back from what is painted, stations
 have lanes that work, and floors on which a fleet could come to a deadlock are refused."""
 
+import re
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from instance_file import write_hall_instance
 
 from kiva_plugin_cpp import World
 from warehouse_fleet import Fleet, Rules, epibt
 from warehouse_layout import FloorError
+from warehouse_layout.convert.rawsim.instance import read_floor
 from warehouse_layout.file.request import PRESETS, resolve
 from warehouse_layout.floor import floor_markings, plan_reader
 from warehouse_layout.generate import generated
@@ -118,6 +123,36 @@ def test_markings_turn_with_what_they_mark():
     streets = np.flatnonzero(known.exits == 1)
     x, y = known.point_of(streets)
     assert (turned.exits.flat[turned.cell_of(-y, x)] == 2).all()
+
+
+def with_short_cuts(folder):
+    """The plan of an instance, on the grid of a world."""
+    plan = read_floor(write_hall_instance(folder / "a.xinst")).plan
+    return replace(plan, origin=(0.0, 0.0))
+
+
+def test_short_cuts_are_painted_and_turn_with_the_rest(tmp_path):
+    known = with_short_cuts(tmp_path)
+    world = World()
+    world.spawn(models.document([models.Part("marks", floor_markings.sdf(known))]))
+    world.set_pose("floor_markings1", 0, 0, 0, np.pi / 2)
+    turned = plan_reader.of_world(world)
+    for was, now in zip(known.stations, turned.stations):
+        x, y = known.point_of(np.array(was.short_cuts))
+        there = turned.cell_of(-y, x).tolist()
+        assert len(there) == 2 and sorted(now.short_cuts) == sorted(map(tuple, there))
+
+
+@pytest.mark.parametrize("heading", ["+", "+z", "x"])
+def test_a_painted_short_cut_without_a_heading_is_refused(tmp_path, heading):
+    known = with_short_cuts(tmp_path)
+    text = floor_markings.sdf(known)
+    label = re.search(r"REPLENISH/replenish1/short_cut[-+]y", text)[0]
+    text = text.replace(label, f"REPLENISH/replenish1/short_cut{heading}")
+    world = World()
+    world.spawn(models.document([models.Part("marks", text)]))
+    with pytest.raises(FloorError, match="short_cut with one of .x, .y, -x, -y, to a cell of the"):
+        plan_reader.of_world(world)
 
 
 def test_a_warehouse_that_is_added_to_another_brings_its_floor_plan(tmp_path):

@@ -2,6 +2,7 @@
 """Instances and layout configurations of RAWSim-O become layout files."""
 
 import re
+import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import pytest
@@ -18,6 +19,10 @@ from warehouse_layout.convert.rawsim.instance import read_floor
 from warehouse_layout.file import drawn_floor, layout_file, station_lanes
 from warehouse_layout.place import file_check
 from warehouse_layout.place.placement import plan_of
+
+
+def key(station):
+    return station.name, station.kind, station.service, station.cells.tolist(), station.short_cuts
 
 
 def plan(file):
@@ -41,20 +46,16 @@ def test_an_instance(tmp_path, write, notes):
     path = write(tmp_path / "a.xinst")
     instance = read_floor(path)
     layout = tmp_path / "a.layout.yaml"
-    short = [text for text in formats.convert(path, layout) if "a lane has one way in" not in text]
-    assert short == notes
+    assert formats.convert(path, layout) == notes
     file = layout_file.read(layout)
     before, after = instance.plan, plan(file)
-    lanes = before.lane
     for name in ("passable", "storage", "lane"):
         assert (getattr(before, name) == getattr(after, name)).all()
-    streets = before.passable & ~before.storage & ~lanes
-    assert (before.exits[streets] == after.exits[streets]).all()
+    assert (before.exits[~before.storage] == after.exits[~before.storage]).all()
     assert file_check.faults(file) == []
     assert file.spacing == pytest.approx(before.spacing, abs=1e-3)
     assert len(file.storage_units) == len(instance.units) and len(file.robots) == 16
-    names = [(s.name, s.kind, s.service, s.cells.tolist()) for s in before.stations]
-    assert names == [(s.name, s.kind, s.service, s.cells.tolist()) for s in after.stations]
+    assert [key(s) for s in before.stations] == [key(s) for s in after.stations]
     pick = file.stations[0]
     assert pick.settings == {"capacity": 12, "seconds_a_piece": 10.0, "pick_seconds": 3.0}
     assert file.items == 5 * len(instance.units)
@@ -78,9 +79,33 @@ def test_tiers_and_elevators(tmp_path):
     assert note == "elevators are left out, and tiers lie beside each other: elevator0"
 
 
-def test_a_short_cut_in_a_queue_is_reported(tmp_path):
-    notes = formats.convert(write_hall_instance(tmp_path / "a.xinst"), tmp_path / "a.layout.yaml")
-    assert any("a lane has one way in and one out; others end at [" in text for text in notes)
+def test_short_cuts_of_queues_are_kept(tmp_path):
+    """A queue's last row is entered from the hall and from the deep end of the row before, in the
+    plan of an instance, in its layout, and in a world made of that."""
+    path, layout, world = (tmp_path / name for name in ("a.xinst", "a.layout.yaml", "a.sdf"))
+    of_file = read_floor(write_hall_instance(path)).plan
+    for station in of_file.stations:
+        cells = station.cells.tolist()
+        (_, first), (deep, last) = sorted(station.short_cuts, key=lambda cut: cut[0] in cells)
+        assert [cells.index(cell) for cell in (first, deep, last)] == [8, 4, 11]
+    formats.convert(path, layout)
+    assert formats.convert(layout, world) == []
+    read = formats.read(world)[0]
+    file = layout_file.read(layout)
+    assert [s.short_cuts for s in read.stations] == [s.short_cuts for s in file.stations]
+    assert (plan(read).exits == plan(file).exits).all()
+
+
+def test_ways_out_amid_a_lane_are_reported(tmp_path):
+    path = write_hall_instance(tmp_path / "a.xinst")
+    root = ElementTree.parse(path).getroot()
+    waypoints = root.find("Waypoints")
+    service = next(w for w in waypoints if w.get("OutputStation") == "0")
+    behind = next(w for w in waypoints if service.get("ID") in [p.text for p in w.find("Paths")])
+    ElementTree.SubElement(service.find("Paths"), "Waypoint").text = behind.get("ID")
+    ElementTree.ElementTree(root).write(path)
+    notes = formats.convert(path, tmp_path / "a.layout.yaml")
+    assert any("a lane has one way out, and ways in from streets" in text for text in notes)
 
 
 def test_a_station_without_a_queue_is_reported(tmp_path):
@@ -102,9 +127,11 @@ def test_a_configuration(write, tmp_path):
     file, _ = formats.read(write())
     instance, _ = formats.read(write_hall_instance(tmp_path / "a.xinst"))
     assert (plan(file).exits == plan(instance).exits).all()
-    assert {(s.kind, s.queue, s.service, s.exit) for s in file.stations} == {
-        (s.kind, s.queue, s.service, s.exit) for s in instance.stations
-    }
+    lanes = [
+        {(s.kind, s.queue, s.service, s.exit, frozenset(s.short_cuts)) for s in each.stations}
+        for each in (file, instance)
+    ]
+    assert lanes[0] == lanes[1]
     assert (file.name, file.robots, file.storage_units) == ("1-2-2-8-0.85", 8, 170)
     assert file.stations[0].settings["capacity"] == 18
 
@@ -125,10 +152,8 @@ def test_all_kinds_of_halls(write, counter_clockwise, kind, single, two_way):
     )
     file, notes = formats.read(path)
     if two_way == "false":
-        assert notes == [
-            "a lane has one way in and one out: the buffers' short cuts and further entries are"
-            " left out"
-        ]
+        assert notes == []
+    assert all(len(s.short_cuts) == 2 for s in file.stations)
     assert len(file.stations) == 7
     # The halls' streets of the kind HighwayHallway and two-way aisles make no good floor there
     # either: they meet head-on.

@@ -136,6 +136,48 @@ def test_a_wrong_elevator_is_named(before, after, message):
     assert str(error.value).startswith(f"a.layout.yaml:{message}")
 
 
+CUTS = """layout: 1
+floor: |
+  ....#
+  >..s.
+  #.A..
+stations:
+  A: {name: pick1, queue: [[0, 1], [0, 2], [1, 2], [1, 1], [2, 1]], exit: [[3, 0]]}
+"""
+PAIRS = "short_cuts: [[[0, 1], [1, 1]], [[1, 0], [1, 1]], [[1, 0], [2, 0]]]"
+
+
+def with_cuts(text):
+    return CUTS.replace("exit: ", f"{text}, exit: ")
+
+
+def test_short_cuts_of_a_queue():
+    file = lf.parse(with_cuts(PAIRS))
+    (station,) = file.stations
+    assert station.short_cuts == (((0, 1), (1, 1)), ((1, 0), (1, 1)), ((1, 0), (2, 0)))
+    assert lf.parse(lf.text_of(file)).stations == file.stations
+
+
+@pytest.mark.parametrize(
+    "after, message",
+    [
+        ("3", "a list of pairs of cells was expected"),
+        ("[[[0, 1]]]", "two cells [column, row] beside each other were expected"),
+        ("[[[0, 1], [2, 1]]]", "two cells [column, row] beside each other were expected"),
+        ("[[[0, 1], [0, 2]]]", "from [0, 1] to [0, 2]; from a street, or a cell of the queue, to"),
+        ("[[[2, 1], [1, 1]]]", "from [2, 1] to [1, 1]; from a street, or a cell of the queue, to"),
+        ("[[[0, 0], [0, 1]]]", "from [0, 0] to [0, 1]; from a street, or a cell of the queue, to"),
+        ("[[[3, 1], [2, 1]]]", "from [3, 1] to [2, 1]; from a street, or a cell of the queue, to"),
+        ("[[[2, 0], [3, 0]]]", "from [2, 0] to [3, 0]; from a street, or a cell of the queue, to"),
+    ],
+)
+def test_a_wrong_short_cut_is_named(after, message):
+    with pytest.raises(lf.LayoutFileError) as error:
+        lf.parse(with_cuts(f"short_cuts: {after}"), "a.layout.yaml")
+    assert str(error.value).startswith("a.layout.yaml:7:")
+    assert f"station 'A': short_cuts: {message}" in str(error.value)
+
+
 FOUR = RIDES.replace("..s#", "..s# .. ..").replace("...A", "...A .. ..")
 
 

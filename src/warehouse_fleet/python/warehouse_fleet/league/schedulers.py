@@ -11,13 +11,13 @@ from scipy.optimize import linear_sum_assignment
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import shortest_path
 
+from warehouse_fleet._core import PURSUING
 from warehouse_fleet.league.problem import Problem
 
 NOWHERE = -1  # no task
 MOST_TABLE = 4_000  # cells of a map with a table of all ways, of 64 MB
 MOST_PAIRS = 1_000_000  # robots times tasks that are weighed at once
 WEIGHT = 0.1  # of a task's length beside the way to it
-AT_WORK = 0.45  # of the passable cells: most robots with a task, as `pursuing` of the planner
 STAY = 1.0  # cells by which another robot has to be nearer to take over a task
 UNREACHABLE = 1e6  # cells
 
@@ -66,7 +66,7 @@ class Shortest:
 
     def __init__(self, problem: Problem) -> None:
         self._limit = int(problem.revealed)
-        self._most = max(1, int(AT_WORK * np.count_nonzero(problem.passable)))
+        self._most = max(1, int(PURSUING * np.count_nonzero(problem.passable)))
         self._ways = _Ways(problem.passable)
         self._start = np.array([cells[0] for cells in problem.tasks])
         self._length = self._lengths(problem.tasks)

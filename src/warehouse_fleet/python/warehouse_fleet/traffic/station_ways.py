@@ -4,6 +4,8 @@
 from collections.abc import Set as AbstractSet
 from typing import NamedTuple
 
+import numpy as np
+
 from warehouse_layout.floor.floor_plan import FloorPlan, Station
 from warehouse_layout.floor.stations import STEPS
 
@@ -49,8 +51,19 @@ def _ways(plan: FloorPlan, station: Station) -> Ways:
     lane = frozenset(station.cells.tolist())
     first, last = int(station.cells[0]), int(station.cells[-1])
     beside = set(plan.beside([first]).tolist()) - lane
-    before = frozenset(cell for cell in beside if first in _ahead(plan, cell))
-    return Ways(before, lane, frozenset(_ahead(plan, last)))
+    before = {cell for cell in beside if first in _ahead(plan, cell)}
+    before |= {cell for cell, _ in station.short_cuts if cell not in lane}
+    return Ways(frozenset(before), lane, frozenset(_ahead(plan, last)))
+
+
+def short_cuts(plan: FloorPlan) -> tuple[np.ndarray, np.ndarray]:
+    """Returns (ends, goals), (cells,) each: the cell to which a short cut leads from each cell, and
+    the service cell ahead; -1 without one."""
+    ends, goals = np.full((2, plan.passable.size), -1, np.int32)
+    for station in plan.stations:
+        for cell, end in station.short_cuts:
+            ends[cell], goals[cell] = end, station.service_cell
+    return ends, goals
 
 
 def _ahead(plan: FloorPlan, cell: int) -> list[int]:

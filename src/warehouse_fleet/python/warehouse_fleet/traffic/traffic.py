@@ -22,7 +22,7 @@ from warehouse_fleet.traffic.cut_off import CutOff
 from warehouse_fleet.traffic.elevators import Elevators, Move
 from warehouse_fleet.traffic.obstacles import ObstacleLog
 from warehouse_fleet.traffic.people import zone_around
-from warehouse_fleet.traffic.station_ways import StationWays
+from warehouse_fleet.traffic.station_ways import StationWays, short_cuts
 from warehouse_fleet.traffic.watchdog import Watchdog
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.landings import Landings
@@ -113,6 +113,7 @@ class Traffic:
         self._after = np.full(plan.passable.size, NOWHERE, np.int32)  # next cell of a lane, by cell
         for station in plan.stations:
             self._after[station.cells[:-1]] = station.cells[1:]
+        self._short_cuts = short_cuts(plan)
         self._ways = StationWays(plan)
         self._cut_off = CutOff(self.floor)
         self._next_map = 0.0
@@ -184,17 +185,27 @@ class Traffic:
 
     def all_ahead(self) -> np.ndarray:
         """Returns, (n,), the robot that each robot waits for: by the plan, because it holds the
-        next cell of the lane, or because it stands where this one has to go, or in the only way
-        there; or NOWHERE."""
+        next cell of the lane or the end of its short cut, or because it stands where this one has
+        to go, or in the only way there; or NOWHERE."""
         robots = self.robots
         ahead = robots.waits_for.copy()
         after = np.where(robots.cell != NOWHERE, self._after[robots.cell], NOWHERE)
         asks = np.flatnonzero((ahead == NOWHERE) & ~robots.busy & (after != NOWHERE))
         by = self._execution.holders(after[asks])
         ahead[asks] = np.where(by != asks, by, NOWHERE)  # it may hold that cell itself
+        self._look_at_short_cuts(ahead)
         self._look_for_barring(ahead)
         self._look_for_cutting(ahead)
         return ahead
+
+    def _look_at_short_cuts(self, ahead: np.ndarray) -> None:
+        """Has robots without one `ahead` wait for that which holds the end of a short cut."""
+        robots, (ends, goals) = self.robots, self._short_cuts
+        ways = np.where(robots.cell != NOWHERE, ends[robots.cell], NOWHERE)
+        wait = (ahead == NOWHERE) & ~robots.busy & (ways != NOWHERE)
+        asks = np.flatnonzero(wait & (robots.goal == goals[robots.cell]))
+        by = self._execution.holders(ways[asks])
+        ahead[asks] = np.where(by != asks, by, NOWHERE)
 
     def _look_for_barring(self, ahead: np.ndarray) -> None:
         """Has robots without one `ahead` wait for that which bars their goal."""

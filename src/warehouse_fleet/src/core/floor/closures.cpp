@@ -14,15 +14,17 @@ void sort(std::vector<Cell>& cells) {
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
 }
 
-/// Returns the previous cell of the same lane, or kNowhere.
-Cell before(const Floor& floor, Cell cell) {
-  if (!floor.isLane(cell)) return kNowhere;
+/// Returns the cells of the same lane that lead to one: the previous cell, and those with a short
+/// cut.
+std::vector<Cell> before(const Floor& floor, Cell cell) {
+  std::vector<Cell> cells;
+  if (!floor.isLane(cell)) return cells;
   for (int heading = 0; heading < kHeadings; ++heading) {
     const Cell from = floor.beside(cell, heading + 2);
     if (from == kNowhere || !floor.isLane(from)) continue;
-    if (floor.next(Deck::kUnder, from, heading) == cell) return from;
+    if (floor.next(Deck::kUnder, from, heading) == cell) cells.push_back(from);
   }
-  return kNowhere;
+  return cells;
 }
 
 }  // namespace
@@ -63,9 +65,14 @@ Closures::Closed Closures::now(const Fleet& fleet) const {
 
 /// Returns whether the nearest robot behind a unit in a lane is loaded.
 bool Closures::isWaitedFor(Cell unit, const Fleet& fleet) const {
-  for (Cell cell = before(floor_, unit); cell != kNowhere; cell = before(floor_, cell)) {
-    const auto at = std::find(fleet.cell.begin(), fleet.cell.end(), cell);
+  std::vector<Cell> behind = before(floor_, unit);
+  for (std::size_t i = 0; i < behind.size(); ++i) {
+    const auto at = std::find(fleet.cell.begin(), fleet.cell.end(), behind[i]);
     if (at != fleet.cell.end()) return fleet.isLoaded(at - fleet.cell.begin());
+    for (const Cell cell : before(floor_, behind[i])) {
+      const bool is_new = std::find(behind.begin(), behind.end(), cell) == behind.end();
+      if (is_new) behind.push_back(cell);
+    }
   }
   return false;
 }
@@ -148,10 +155,11 @@ void Closures::fence(Deck deck, const std::vector<Cell>& zone) {
 
 /// Closes the way along its lane to a unit: the robots that wait behind it fill the lane.
 void Closures::comeFromBeyond(Cell unit) {
-  const Cell from = before(floor_, unit);
-  for (int heading = 0; heading < kHeadings; ++heading) {
-    if (floor_.beside(from, heading) != unit) continue;
-    edges_.next[static_cast<int>(Deck::kUnder)][from * kHeadings + heading] = kNowhere;
+  auto& next = edges_.next[static_cast<int>(Deck::kUnder)];
+  for (const Cell from : before(floor_, unit)) {
+    for (int heading = 0; heading < kHeadings; ++heading) {
+      if (floor_.beside(from, heading) == unit) next[from * kHeadings + heading] = kNowhere;
+    }
   }
 }
 

@@ -14,6 +14,7 @@ from warehouse_layout.file import user_file
 from warehouse_layout.file.layout_file import Cell, LayoutFile, StationEntry
 from warehouse_layout.file.layout_reader import LEAST_SPACING, MOST_SPACING
 from warehouse_layout.file.request import LIMITS
+from warehouse_layout.floor.stations import Station
 
 PathName = str | os.PathLike[str]
 
@@ -152,6 +153,12 @@ def with_letters(file: LayoutFile) -> LayoutFile:
         floor[row, column] = letter
         stations.append(replace(station, key=letter))
     return replace(file, floor=floor, stations=tuple(stations))
+
+
+def cells_of_short_cuts(station: Station, width: int) -> tuple[tuple[Cell, Cell], ...]:
+    """Returns the short cuts of a plan's station as a layout file has them. width: of the plan."""
+    pairs = ([divmod(cell, width)[::-1] for cell in cut] for cut in station.short_cuts)
+    return tuple((a, b) for a, b in pairs)
 
 
 def without_twins(names: Iterable[str]) -> list[str]:

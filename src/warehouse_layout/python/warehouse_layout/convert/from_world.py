@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from warehouse_layout.convert import arrows
-from warehouse_layout.convert.common import with_letters
+from warehouse_layout.convert.common import cells_of_short_cuts, with_letters
 from warehouse_layout.file import drawn_floor, station_lanes
 from warehouse_layout.file import layout_file as lf
 from warehouse_layout.file.layout_file import Cell, LayoutFile, LayoutFileError, StationEntry
@@ -277,7 +277,8 @@ def _same(hint: LayoutFile, file: LayoutFile, plan: FloorPlan) -> bool:
 
 
 def _key(station: Station) -> tuple[object, ...]:
-    return station.name, station.kind, station.service, station.cells.tolist()
+    cuts = sorted(station.short_cuts)
+    return station.name, station.kind, station.service, station.cells.tolist(), cuts
 
 
 def _stations(plan: FloorPlan) -> tuple[StationEntry, ...]:
@@ -292,6 +293,7 @@ def _stations(plan: FloorPlan) -> tuple[StationEntry, ...]:
                 service=cells[station.service],
                 queue=tuple(cells[: station.service]),
                 exit=tuple(cells[station.service + 1 :]),
+                short_cuts=cells_of_short_cuts(station, plan.width),
             )
         )
     return tuple(out)

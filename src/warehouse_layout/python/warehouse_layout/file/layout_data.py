@@ -45,6 +45,8 @@ class StationEntry:
     kind: str = "pick"  # of KINDS
     queue: tuple[Cell, ...] = ()  # in driving order, the entry first
     exit: tuple[Cell, ...] = ()  # in driving order
+    # Further steps on the way to the service cell: from a street, or a cell of the queue.
+    short_cuts: tuple[tuple[Cell, Cell], ...] = ()
     settings: Mapping[str, Any] = field(default_factory=dict)  # of its service: times, hours
 
 

@@ -134,6 +134,11 @@ def _entry(station: StationEntry, floor: np.ndarray) -> dict[str, Any]:
         **({} if drawn else {"service": list(station.service)}),
         **({"queue": _places(station.queue)} if station.queue else {}),
         **({"exit": _places(station.exit)} if station.exit else {}),
+        **(
+            {"short_cuts": [_places(cut) for cut in station.short_cuts]}
+            if station.short_cuts
+            else {}
+        ),
         **{name: _setting(name, value) for name, value in station.settings.items()},
     }
 

@@ -43,7 +43,7 @@ _KEYS = (
     "building",
     "at",
 )
-_STATION_KEYS = ("name", "kind", "service", "queue", "exit", *SETTINGS)
+_STATION_KEYS = ("name", "kind", "service", "queue", "exit", "short_cuts", *SETTINGS)
 
 
 class LayoutReader:
@@ -320,13 +320,15 @@ class LayoutReader:
         kind = self._text_of(entry.get("kind"), f"{label}: kind", "pick")
         if kind not in lf.KINDS:
             self._fail(entry["kind"], f"{label}: kind is '{kind}'; known: {', '.join(lf.KINDS)}")
+        queue = self._lane(entry, label, "queue")
         return StationEntry(
             key=str(key.value),
             service=service,
             name=self._station_name(entry.get("name"), str(key.value)),
             kind=kind,
-            queue=self._lane(entry, label, "queue"),
+            queue=queue,
             exit=self._lane(entry, label, "exit"),
+            short_cuts=tuple(self._short_cuts(entry.get("short_cuts"), label, [*queue, service])),
             settings=self._settings(entry, label),
         )
 
@@ -338,6 +340,29 @@ class LayoutReader:
 
     def _lane(self, entry: dict[str, Node], label: str, part: str) -> tuple[Cell, ...]:
         return self._cells(entry[part], f"{label}: {part}", 1000) if part in entry else ()
+
+    def _short_cuts(
+        self, node: Node | None, label: str, way: list[Cell]
+    ) -> Iterator[tuple[Cell, Cell]]:
+        """Yields steps that lead farther ahead on a way to a service cell: from a street beside it,
+        or from one of its own cells."""
+        what = f"{label}: short_cuts"
+        if node is not None and not isinstance(node, yaml.SequenceNode):
+            self._fail(node, f"{what}: a list of pairs of cells was expected")
+        for part in node.value if node is not None else ():
+            pair = self._cells(part, what, 2)
+            if len(pair) != 2 or sum(abs(a - b) for a, b in zip(*pair)) != 1:
+                self._fail(part, f"{what}: two cells [column, row] beside each other were expected")
+            (column, row), end = pair
+            at = way.index(pair[0]) if pair[0] in way else -1
+            is_street = at >= 0 or str(self._floor[row, column]) in lf.STREETS
+            if not is_street or end not in way[max(at + 2, 1) :]:
+                self._fail(
+                    part,
+                    f"{what}: from [{column}, {row}] to [{end[0]}, {end[1]}]; from a street, or a"
+                    " cell of the queue, to one farther ahead in it was expected",
+                )
+            yield pair[0], end
 
     def _settings(self, entry: dict[str, Node], label: str) -> dict[str, Any]:
         out = {}

@@ -53,7 +53,12 @@ def of_file(file: LayoutFile, drawn: DrawnFloor) -> tuple[list[Station], list[La
             cells, service = search.lane(entry, list(by_name.values()))
             check_lane(f"station {entry.name}", cells, drawn.passable)
             _check_apart(entry, cells, drawn, by_name.values())
-            by_name[entry.key] = Station(entry.name, KINDS[entry.kind], cells, service)
+            cuts = tuple(
+                (int(a), int(b)) for a, b in (_numbers(c, drawn) for c in entry.short_cuts)
+            )
+            by_name[entry.key] = Station(
+                entry.name, KINDS[entry.kind], cells, service, short_cuts=cuts
+            )
         except FloorError as error:
             faults.append(LaneFault(entry.name, str(error), _cells_of(entry)))
     return [by_name[e.key] for e in file.stations if e.key in by_name], faults

@@ -11,6 +11,7 @@ Each of its links is a kind of marking, each visual a rectangle of whole cells:
     PICK/NAME/queue      a station's lane: a cell a visual, in driving order, from its entry
     PICK/NAME/service    ... where a unit is served
     PICK/NAME/exit       ... and on to where it joins a street; REPLENISH likewise
+    PICK/NAME/short_cut+x  cells that lead farther ahead in its queue, towards +x
 
 Thus a world holds its floor plan, be it a file, in a process or sent as messages. Markings that are
 moved or turned by quarters mark the cells that lie beneath them then.
@@ -34,6 +35,7 @@ from warehouse_layout.floor.stations import (
     QUEUE,
     REPLENISH,
     SERVICE,
+    STEPS,
     Station,
     check_lane,
     with_lanes,
@@ -41,6 +43,7 @@ from warehouse_layout.floor.stations import (
 
 NAME = "floor_markings"
 HEADINGS = ("+x", "+y", "-x", "-y")
+SHORT_CUT = "short_cut"  # a part of a lane, with a heading
 
 _NAMED = re.compile(rf"{NAME}\d*")
 _GAP = {"street": 0.0}  # between a marking and the border of its cells, of a cell
@@ -82,7 +85,15 @@ Lanes = dict[tuple[str, str], list[tuple[Mark, tuple[slice, slice]]]]
 
 
 def _kind(label: str) -> str:
-    return "street" if label.startswith("exits") else label.rpartition("/")[2]
+    kind = label.rpartition("/")[2]
+    return QUEUE if kind.startswith(SHORT_CUT) else "street" if kind.startswith("exits") else kind
+
+
+def heading_of_short_cut(label: str) -> str:
+    """Returns the one of HEADINGS by which the cells of a label lead into a queue; "" for labels of
+    other kinds."""
+    part = label.rpartition("/")[2]
+    return part.removeprefix(SHORT_CUT) if part.startswith(SHORT_CUT) else ""
 
 
 # --- painting
@@ -139,6 +150,16 @@ def _painted(plan: FloorPlan) -> Iterator[tuple[str, list[Rectangle]]]:
         for part, cells in station.parts.items():
             y, x = np.divmod(cells, plan.width)
             yield f"{station.kind}/{station.name}/{part}", np.column_stack([x, y, x, y]).tolist()
+        yield from _painted_short_cuts(plan, station)
+
+
+def _painted_short_cuts(plan: FloorPlan, station: Station) -> Iterator[tuple[str, list[Rectangle]]]:
+    steps = {dx + dy * plan.width: heading for heading, (dx, dy) in zip(HEADINGS, STEPS)}
+    for step, heading in steps.items():
+        cells = np.array([a for a, b in station.short_cuts if b - a == step], int)
+        y, x = np.divmod(cells, plan.width)
+        rows = np.column_stack([x, y, x, y]).tolist()
+        yield f"{station.kind}/{station.name}/{SHORT_CUT}{heading}", rows
 
 
 def _link(label: str, plan: FloorPlan, cells: Iterable[Rectangle]) -> str:
@@ -225,10 +246,11 @@ def read(visuals: Iterable[Any], pose: np.ndarray, model: str = "") -> list[Mark
 
 def _turned(label: str, quarters: int) -> str:
     """Returns the label with its headings turned, as the markings are."""
-    if not quarters or not label.startswith("exits"):
+    begin = label[:-2] if heading_of_short_cut(label) else "exits"
+    if not quarters or not label.startswith(begin):
         return label
-    headings = [HEADINGS.index(label[i : i + 2]) for i in range(len("exits"), len(label), 2)]
-    return "exits" + "".join(HEADINGS[(h + quarters) % 4] for h in headings)
+    headings = [HEADINGS.index(label[i : i + 2]) for i in range(len(begin), len(label), 2)]
+    return begin + "".join(HEADINGS[(h + quarters) % 4] for h in headings)
 
 
 def applied(blank: FloorPlan, marks: Iterable[Mark], belts: Mapping[str, Point]) -> FloorPlan:
@@ -287,20 +309,48 @@ def _stations(
     plan: FloorPlan, lanes: Lanes, passable: np.ndarray, belts: Mapping[str, Point]
 ) -> tuple[Station, ...]:
     stations = []
-    for (_, label), cells in lanes.items():
+    for (_, label), parts in lanes.items():
+        cells = [(m, where) for m, where in parts if not heading_of_short_cut(m.label)]
         kind, slash, name = label.partition("/")
         service = [m.label.rpartition("/")[2] for m, _ in cells]
         if not slash or kind not in (PICK, REPLENISH) or service.count(SERVICE) != 1:
             raise FloorError(
-                f"floor marking '{cells[0][0].label}': storage, parking, keep_out, exits…, or"
+                f"floor marking '{parts[0][0].label}': storage, parking, keep_out, exits…, or"
                 " PICK/NAME/ or REPLENISH/NAME/ with queue, one cell of service, and exit expected"
             )
-        numbers = np.array([y.start * plan.width + x.start for _, (y, x) in cells], np.int32)
+        numbers = np.array([_number(plan, where) for _, where in cells], np.int32)
         check_lane(f"{kind} station {name}", numbers, passable)
         at = service.index(SERVICE)
         belt = _belt_at(plan, int(numbers[at]), belts) if kind == PICK else ""
-        stations.append(Station(name, kind, numbers, at, belt))
+        cuts = tuple(_short_cuts(plan, parts))
+        stations.append(Station(name, kind, numbers, at, belt, cuts))
     return _renamed(stations)
+
+
+def _number(plan: FloorPlan, where: tuple[slice, slice]) -> int:
+    rows, columns = where
+    return int(rows.start) * plan.width + int(columns.start)
+
+
+def _short_cuts(
+    plan: FloorPlan, parts: Iterable[tuple[Mark, tuple[slice, slice]]]
+) -> Iterator[tuple[int, int]]:
+    """Yields the short cuts among the parts of a lane. Raises FloorError where one has another
+    heading than expected, or leads off the floor."""
+    for mark, where in parts:
+        heading = heading_of_short_cut(mark.label)
+        if not heading:
+            continue
+        cell = _number(plan, where)
+        beside = plan.beside([cell]).tolist()
+        dx, dy = STEPS[HEADINGS.index(heading)] if heading in HEADINGS else (0, 0)
+        to = cell + dx + dy * plan.width
+        if to == cell or to not in beside:
+            raise FloorError(
+                f"floor marking '{mark.label}' at ({mark.x:g}, {mark.y:g}): short_cut with one of"
+                f" {', '.join(HEADINGS)}, to a cell of the floor, was expected"
+            )
+        yield cell, to
 
 
 def _belt_at(plan: FloorPlan, cell: int, belts: Mapping[str, Point]) -> str:

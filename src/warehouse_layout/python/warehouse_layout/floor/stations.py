@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Stations and their lanes: one-way, entered at their first cell and left at their last."""
+"""Stations and their lanes: one-way, entered at their first cell and left at their last. Short cuts
+lead farther ahead: from a street into a queue, or from one of its cells to a later one."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -22,6 +23,8 @@ class Station:
     cells: np.ndarray  # (n,) int32, y * width + x, in driving order
     service: int  # index into cells
     belt: str = ""  # the conveyor belt there, if any
+    # Further steps on the way to the service cell: (from, to), cells beside each other.
+    short_cuts: tuple[tuple[int, int], ...] = ()
 
     @property
     def service_cell(self) -> int:
@@ -65,7 +68,7 @@ def with_lanes(exits: np.ndarray, passable: np.ndarray, stations: Iterable[Stati
     """Returns `exits`, (h, w) uint8, restricted by what is passable and by the stations' lanes.
 
     No exit leads to an impassable cell, or into a lane except at its entry. Within a lane the only
-    exit leads ahead, and from its last cell out of it.
+    exit leads ahead, and from its last cell out of it. Short cuts are exits as well.
     """
     stations = list(stations)
     lane = lane_mask(stations, passable.shape)
@@ -81,7 +84,31 @@ def with_lanes(exits: np.ndarray, passable: np.ndarray, stations: Iterable[Stati
         cells = station.cells.tolist()
         for cell, after in zip(cells, cells[1:]):
             out.flat[cell] = 1 << steps.index(after - cell)
+        for cell, after in station.short_cuts:
+            out.flat[cell] |= 1 << steps.index(after - cell)
     return out
+
+
+def short_cuts(
+    exits: np.ndarray, streets: np.ndarray, cells: np.ndarray, service: int
+) -> tuple[tuple[int, int], ...]:
+    """Returns the short cuts of a lane, of those `exits`, (h, w) uint8, that lead into it.
+
+    streets: (h, w) bool, cells from which a lane may be entered. cells, service: as a Station has.
+    """
+    width = exits.shape[1]
+    place = {int(cell): index for index, cell in enumerate(cells[: service + 1])}
+    steps = [(dx + dy * width, heading) for heading, (dx, dy) in enumerate(STEPS)]
+    out = []
+    for cell, index in place.items():
+        for step, heading in steps:
+            before = cell - step
+            if not 0 <= before < exits.size or not exits.flat[before] >> heading & 1:
+                continue
+            is_ahead = place[before] < index - 1 if before in place else streets.flat[before]
+            if index and is_ahead:
+                out.append((before, cell))
+    return tuple(out)
 
 
 def check_lane(name: str, cells: np.ndarray, passable: np.ndarray) -> None:

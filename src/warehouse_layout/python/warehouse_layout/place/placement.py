@@ -3,6 +3,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -252,7 +253,7 @@ def _with_belts(
         row, column = divmod(station.service_cell, shape[1])
         near = [first.get((column + dx, row + dy), "") for dx, dy in STEPS]
         belt = next(filter(None, near), "") if station.kind == PICK else ""
-        out.append(Station(station.name, station.kind, station.cells, station.service, belt))
+        out.append(replace(station, belt=belt))
     return out
 
 

@@ -104,8 +104,8 @@ class IdealFleet(TransportRequests):
 
     @property
     def distance_m(self) -> float:
-        """The distance of all drives that have begun [m]."""
-        return self._trips.distance_m
+        """The distance that all robots have driven [m]."""
+        return self._trips.odometer.read(self._trips.time)
 
     # The fleet of TransportRequests.
 

@@ -34,6 +34,10 @@ class Drives(Protocol):
         """Returns the time of a drive that ends with an act [s]."""
         ...
 
+    def set_out(self, robot: Any, wait: float, leg: Leg) -> None:
+        """Counts the metres of a drive that begins after a wait [s]."""
+        ...
+
     def schedule(
         self, delay: float, act: Callable[[Any], object], argument: Any, robot: Any
     ) -> None:
@@ -117,6 +121,7 @@ class Lifts:
 
     def _drive(self, journey: Journey, wait: float = 0.0) -> None:
         trips, leg = self._trips, journey.legs[0]
+        trips.set_out(journey.robot, wait, leg)
         if leg.ride:
             seconds = trips.stretched(leg.seconds, journey.act)
             self.all[leg.ride.elevator].coming += 1

@@ -27,6 +27,7 @@ from warehouse_operations.fleets.availability import Upkeep
 from warehouse_operations.fleets.consumption import Consumption, MassOfItems, Way
 from warehouse_operations.fleets.ideal_floor import IdealFloor, Lane
 from warehouse_operations.fleets.ideal_lifts import Lifts
+from warehouse_operations.fleets.odometer import Odometer, Stretch
 from warehouse_operations.stock.event_queue import EventQueue
 from warehouse_operations.stock.protocols import Hooks, Task
 from warehouse_operations.stock.travel import Table, Travel
@@ -41,12 +42,11 @@ RETRY = 1.0  # pause of a robot between two searches for a free storage place [s
 
 
 class Approach(NamedTuple):
-    """The way of a robot to a charger: its first cell, when it begins and ends [s], its length."""
+    """The way of a robot to a charger: its first cell, when it begins and ends [s]."""
 
     start: int
     begin: float
     there: float
-    metres: float
 
 
 @dataclass(eq=False)
@@ -71,9 +71,10 @@ class Robot:
 class Trips:
     """Transports from their start to their end, each phase an event of `queue`.
 
-    time: simulated [s]. book: all transports, with the events that they cause. distance_m: driven
-    by all robots. ways: how often each (service or end cell, other cell, outbound, ride) was driven
-    with a load. arrive: is called with each transport whose unit has come to its destination.
+    time: simulated [s]. book: all transports, with the events that they cause. odometer: counts
+    what all robots drive. ways: how often each (service or end cell, other cell, outbound, ride)
+    was driven with a load. arrive: is called with each transport whose unit has come to its
+    destination.
     """
 
     def __init__(
@@ -81,7 +82,7 @@ class Trips:
     ) -> None:
         self.floor, self.kinematics, self.hooks = floor, kinematics, hooks
         self.travel, self.queue = floor.travel, EventQueue()
-        self.time = self.distance_m = 0.0
+        self.time, self.odometer = 0.0, Odometer()
         self.robots = [
             Robot(kiva_id, int(cell), index)
             for index, (kiva_id, cell) in enumerate(sorted(robots.items()))
@@ -205,11 +206,11 @@ class Trips:
         seconds, metres = self.travel.unloaded([robot.cell], cells)
         taken = np.array([cell != robot.cell and upkeep.is_taken(cell) for cell in cells])
         at = int((metres[0] + TAKEN * taken).argmin())
-        self.distance_m += float(metres[0, at])
         begin = max(self.time, robot.there)
         robot.there = begin + float(seconds[0, at])
+        self.odometer.begin(index, self.time, Stretch(begin, robot.there, float(metres[0, at])))
         self._spend_unloaded(robot, self.travel.unloaded_legs(robot.cell, cells[at]))
-        robot.approach = Approach(robot.cell, begin, robot.there, float(metres[0, at]))
+        robot.approach = Approach(robot.cell, begin, robot.there)
         robot.cell = cells[at]
         able = upkeep.begin(index, robot.cell, robot.there)
         self.queue.schedule(max(able, self.time), _wake, None)
@@ -225,8 +226,7 @@ class Trips:
         """Stops a robot on its way to a charger."""
         here, there = self._start(robot)
         if self.upkeep and robot.approach and here != robot.cell:
-            approach, rest = robot.approach, robot.there - max(self.time, robot.approach.begin)
-            self.distance_m -= approach.metres * rest / (approach.there - approach.begin)
+            self.odometer.stop(robot.index, self.time)
             legs = self.travel.unloaded_legs(here, robot.cell)
             self._spend_unloaded(replace(robot, cell=here), legs, back=True)
         robot.cell, robot.there, robot.approach = here, there, None
@@ -269,6 +269,7 @@ class Trips:
             robot.able = max(robot.able, self.time) + duration
         else:
             robot.halt += duration
+            self.odometer.halt(index, self.time, duration)
 
     def set_kinematics(self, kinematics: Kinematics) -> None:
         """Sets the travel times of robots from their next way on."""
@@ -303,7 +304,6 @@ class Trips:
         via = self.lifts.best(table.options(other))
         self._spend_loaded(transport, table, (end, other, outbound, via))
         legs = table.legs(other, end, via)
-        self.distance_m += sum(leg.metres for leg in legs)
         self.ways[end, other, outbound, via] += 1
         self._drive(legs, act, argument, self._driver(transport))
 
@@ -357,7 +357,14 @@ class Trips:
         if len(legs) > 1:
             self.lifts.begin(wait, legs, act, argument, robot)
         else:
+            self.set_out(robot, wait, legs[0])
             self.schedule(wait + legs[0].seconds, act, argument, robot)
+
+    def set_out(self, robot: Robot, wait: float, leg: Leg) -> None:
+        """Has the odometer count a drive that begins after a wait [s]."""
+        begin = self.time + wait + max(robot.able - self.time, 0.0)
+        way = Stretch(begin, begin + leg.seconds, leg.metres)
+        self.odometer.begin(robot.index, self.time, way)
 
     def schedule(
         self, delay: float, act: Callable[[Any], object], argument: Any, robot: Robot
@@ -453,7 +460,6 @@ class Trips:
         cell, wait = self.floor.units[transport.shelf], max(robot.there - self.time, 0.0)
         via = self.lifts.best(self.travel.unloaded_options(robot.cell, cell))
         legs = self.travel.unloaded_legs(robot.cell, cell, via)
-        self.distance_m += sum(leg.metres for leg in legs)
         self._spend_unloaded(robot, legs)
         robot.cell, robot.there = cell, self.time + seconds
         self.book.assign(transport, index)
@@ -600,10 +606,11 @@ class Trips:
         to = self.hooks.park(robot.kiva_id, robot.cell)
         if to is not None and to != robot.cell and self._on_its_tier(robot, [int(to)]):
             seconds, metres = self.travel.unloaded([robot.cell], [to])
-            self.distance_m += float(metres[0, 0])
             begin = max(self.time, robot.there)
             self._spend_unloaded(robot, self.travel.unloaded_legs(robot.cell, int(to)))
             robot.cell, robot.there = int(to), begin + float(seconds[0, 0])
+            way = Stretch(begin, robot.there, float(metres[0, 0]))
+            self.odometer.begin(robot.index, self.time, way)
 
 
 def _wake(_: object) -> None:

@@ -30,7 +30,17 @@ class Together:
 
 
 class AtOnce:
-    """Fetches a unit for any bundle."""
+    """Fetches a unit for any bundle.
+
+    fills: one that takes as many of the waiting bundles as any, and a visit takes along all that
+    have a place on its unit, also those that come while it lasts. Raises ValueError unless it is
+    true or false.
+    """
+
+    def __init__(self, fills: bool = False) -> None:
+        if not isinstance(fills, bool):
+            raise ValueError(f"fills is {fills!r}; true or false was expected")
+        self.fills = fills
 
     def least(self, view: "View") -> int:
         """Returns 1."""

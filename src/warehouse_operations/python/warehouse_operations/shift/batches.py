@@ -21,9 +21,8 @@ def sizes(
         for bin_ in inventory.with_sku(sku):
             if bin_.unit in units and inventory.takes(bin_, sku, 0):
                 out[bin_.unit] += _fitting(bin_, waiting)
-    for bin_ in inventory.empty.values():
-        if bin_.unit in units:
-            out[bin_.unit] += 1
+    for unit, count in inventory.empties(units).items():
+        out[unit] += count
     fits = {
         unit: min(size, len(bundles), inventory.bundles_that_fit(unit))
         for unit, size in out.items()

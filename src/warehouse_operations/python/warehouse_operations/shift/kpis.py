@@ -2,13 +2,14 @@
 """The figures of a shift, and the formulas behind them."""
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from typing import Any
 
 import numpy as np
 
 from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_operations.shift.context import Context
+from warehouse_operations.shift.tally import Tally
 from warehouse_operations.stock.orders import Order
 from warehouse_operations.stock.settings import Settings
 from warehouse_operations.stock.stations import WorkStation
@@ -53,8 +54,7 @@ def of_shift(
     hours = max(elapsed, 1e-9) / 3600
     # Stations that were closed all the time do not count.
     picking = [s for s in stations if s.picks and (s.is_open or s.visits)]
-    picks = sum(len([v for v in s.inbound.values() if v.pieces]) for s in picking)
-    pile_on = tally.items_picked / max(tally.pick_visits + picks, 1)
+    pile_on = tally.items_picked / max(served_visits(tally, stations)[0], 1)
     bound = sum(
         upper_bound(pile_on, station.settings, kinematics, spacing)
         * (station.open_seconds(now) / elapsed if elapsed else 1.0)
@@ -96,6 +96,15 @@ def of_shift(
         "state_hash": context.state_hash(),
         **getattr(fleet, "elevators", {}),
     } | _of_troubles(fleet, tally.items_picked)
+
+
+def served_visits(tally: Tally, stations: Iterable[WorkStation]) -> tuple[int, int]:
+    """Returns the numbers of visits for picking, and of those to put bundles in: those that are
+    over, and those during which that has begun."""
+    begun = [v.replenishes for s in stations for v in s.inbound.values() if v.pieces]
+    put_in = sum(begun)
+    picks, others = tally.pick_visits, tally.trips - tally.pick_visits
+    return picks + len(begun) - put_in, others + put_in
 
 
 def _of_troubles(fleet: Any, items_picked: int) -> dict[str, Any]:

@@ -141,14 +141,7 @@ class Replenishing:
     ) -> list[Bin]:
         """Returns the bins on some units that have room for a bundle, not too far from a
         station."""
-        inventory = self._inventory
-        both = (inventory.with_sku(bundle.sku), inventory.empty.values())
-        bins = [
-            bin_
-            for some in both
-            for bin_ in some
-            if bin_.unit in units and inventory.takes(bin_, bundle.sku, bundle.quantity)
-        ]
+        bins = self._inventory.places(bundle.sku, bundle.quantity, units)
         near = set(self._within_reach(station, [bin_.unit for bin_ in bins]))
         return [bin_ for bin_ in bins if bin_.unit in near]
 

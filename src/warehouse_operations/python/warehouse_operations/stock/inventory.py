@@ -12,9 +12,11 @@ from typing import Any
 
 import numpy as np
 
+from warehouse_operations.goods.empty_bins import EmptyBins
 from warehouse_operations.goods.kinds import Goods
 
 ROOMY = 12  # pieces, of the largest bundle
+TOLERANCE = 1e-6  # of weights that fit on a unit
 
 
 class Reason(StrEnum):
@@ -88,7 +90,7 @@ class Inventory:
         self.of_unit: dict[int, list[Bin]] = defaultdict(list)
         self._of_sku: dict[str, dict[int, Bin]] = defaultdict(dict)
         self.capacity = self.total = self.expected = 0
-        self.empty: dict[int, Bin] = {}  # bins without anything, by id
+        self._empty = EmptyBins(bins)
         self._kept_for = Counter(bin_.sku for bin_ in bins)  # bins by present or last SKU
         # SKUs without a bin, by the bin that they get once it is empty.
         self._heirs: dict[int, str] = {}
@@ -158,6 +160,29 @@ class Inventory:
         units, begins = np.unique(unit_of[order], return_index=True)
         return rows[order], units, begins
 
+    def places(self, sku: str, quantity: int, units: Collection[int]) -> list[Bin]:
+        """Returns the bins on some units that take a quantity of a SKU: those with pieces of it,
+        then empty ones. Where units have limits, a unit's empty bins are alike, and the first of
+        them stands for all: looking at each would take longer than the rest of a shift."""
+        with_it = [
+            bin_
+            for bin_ in self.with_sku(sku)
+            if bin_.unit in units and self.takes(bin_, sku, quantity)
+        ]
+        return [*with_it, *self._empty_places(sku, quantity, units)]
+
+    def _empty_places(self, sku: str, quantity: int, units: Collection[int]) -> list[Bin]:
+        if not self.goods:
+            bins = (bin_ for bin_ in self._empty if bin_.unit in units)
+            return [bin_ for bin_ in bins if self.takes(bin_, sku, quantity)]
+        roomy = self._empty.units_with(quantity * self.goods.weight(sku) - TOLERANCE)
+        firsts = (self._empty.first_on(unit) for unit in roomy if unit in units)
+        return [bin_ for bin_ in firsts if self.takes(bin_, sku, quantity)]
+
+    def empties(self, units: Collection[int]) -> dict[int, int]:
+        """Returns the numbers of empty bins on those of some units that have any, by unit."""
+        return {unit: count for unit, count in self._empty.counts() if unit in units}
+
     def takes(self, bin_: Bin, sku: str, quantity: int) -> bool:
         """Returns whether a quantity of a SKU can be put into a bin.
 
@@ -172,7 +197,10 @@ class Inventory:
         return bin_.room >= quantity and (bin_.sku == sku or may_move_in)
 
     def _weight_fits(self, unit: int, sku: str, quantity: int) -> bool:
-        return self.goods is None or quantity * self.goods.weight(sku) <= self.room_on(unit) + 1e-6
+        return (
+            self.goods is None
+            or quantity * self.goods.weight(sku) <= self.room_on(unit) + TOLERANCE
+        )
 
     def room_on(self, unit: int) -> float:
         """Returns the room on a unit, besides what is expected: by weight where units have limits,
@@ -192,6 +220,7 @@ class Inventory:
         if self.goods:
             weight = quantity * self.goods.weight(sku)
             self._load[bin_.unit] += weight
+            self._empty.set_room(bin_.unit, self.room_on(bin_.unit))
             self._weight += weight if there else 0.0
 
     def move(self, bin_: Bin, sku: str, quantity: int, reason: Reason, **context: Any) -> None:
@@ -293,7 +322,7 @@ class Inventory:
         self.capacity -= 0 if self.goods else bin_.capacity
         self._kept_for[bin_.sku] -= 1
         self._forget_room(bin_)
-        self.empty.pop(bin_.bin_id, None)
+        self._empty.discard(bin_)
         del self.bins[bin_.bin_id]
         self.of_unit[bin_.unit].remove(bin_)
         if not self.of_unit[bin_.unit]:
@@ -330,9 +359,9 @@ class Inventory:
 
     def _measure(self, bin_: Bin) -> None:
         if bin_.empty:
-            self.empty[bin_.bin_id] = bin_
+            self._empty.add(bin_)
         else:
-            self.empty.pop(bin_.bin_id, None)
+            self._empty.discard(bin_)
         if bin_.room < ROOMY:
             self._forget_room(bin_)
         elif bin_.bin_id not in self._roomy:

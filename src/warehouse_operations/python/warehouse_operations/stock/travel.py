@@ -17,6 +17,7 @@ from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_layout._core import routes, ways
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.rides import Chains, JoinedTable, Leg, Option, Ride, rides_of
+from warehouse_layout.floor.way_graph import WayGraph, lanes_of
 
 HEADINGS = 4
 TABLES = 400  # most tables kept; the least recently used is dropped
@@ -73,14 +74,15 @@ class Travel:
         self.width = plan.passable.shape[1]
         # Storage places are ends of ways, never inside one.
         self._ends = np.asarray(plan.storage | plan.parking, np.uint8).ravel()
-        self._forward, self._backward = _steps(plan, self._ends.astype(bool))
+        steps, self._lane_of = _steps(plan, self._ends.astype(bool)), lanes_of(plan)
+        self._forward, self._backward = (WayGraph(each, self._lane_of) for each in steps)
         self._tables: OrderedDict[tuple[int, bool], Table | JoinedTable] = OrderedDict()
         self._rides = rides_of(plan.elevators)
         self._of_landings: dict[tuple[int, bool], Table] = {}
         self._places = np.flatnonzero(plan.storage)
         self._place = np.full(plan.passable.size, -1, np.int32)  # index into them, by cell
         self._place[self._places] = np.arange(len(self._places))
-        self._numbered = _Numbered(plan, self._ends, (self._forward, self._backward), self._places)
+        self._numbered = _Numbered(plan, self._ends, steps, self._lane_of, self._places)
         self._of_places: OrderedDict[tuple[int, bool], tuple[np.ndarray, np.ndarray]] = (
             OrderedDict()
         )
@@ -199,7 +201,8 @@ class Travel:
 
     def _search(self, cell: int, forward: bool) -> Table:
         graph = self._forward if forward else self._backward
-        seconds, steps, before = routes(graph, self._ends, cell, *self._costs)
+        with graph.open(self._lane_of[cell]) as following:
+            seconds, steps, before = routes(following, self._ends, cell, *self._costs)
         heading = np.argmin(seconds.reshape(-1, HEADINGS), axis=1)
         nodes = np.arange(len(heading)) * HEADINGS + heading
         seconds = self._from_standstill(seconds[nodes])
@@ -217,20 +220,24 @@ class _Numbered:
         plan: FloorPlan,
         ends: np.ndarray,
         graphs: tuple[np.ndarray, np.ndarray],
+        lane_of: np.ndarray,
         places: np.ndarray,
     ) -> None:
         cells = np.flatnonzero(plan.passable)
         self._number = np.full(plan.passable.size + 1, -1, np.int32)  # by cell; of -1: -1
         self._number[cells] = np.arange(len(cells), dtype=np.int32)
-        self._ends, self._places = ends[cells], self._number[places]
-        self._forward, self._backward = (self._number[graph[cells]] for graph in graphs)
+        self._ends, self._places, self._lane_of = ends[cells], self._number[places], lane_of
+        self._forward, self._backward = (
+            WayGraph(self._number[graph[cells]], lane_of[cells]) for graph in graphs
+        )
 
     def ways(
         self, cell: int, forward: bool, step: float, turn: float
     ) -> tuple[np.ndarray, np.ndarray]:
         """Returns (seconds, steps) of the ways from a cell to all storage places, or back."""
-        graph = self._forward if forward else self._backward
-        return ways(graph, self._ends, int(self._number[cell]), step, turn, self._places)
+        graph, number = self._forward if forward else self._backward, int(self._number[cell])
+        with graph.open(self._lane_of[cell]) as following:
+            return ways(following, self._ends, number, step, turn, self._places)
 
 
 def _remembered(

@@ -36,6 +36,7 @@ def _station(station: StationEntry) -> dict[str, Any]:
         "kind": station.kind,
         "queue": station.queue,
         "exit": station.exit,
+        "short_cuts": station.short_cuts,
         "settings": dict(station.settings),
     }
 

@@ -3,6 +3,7 @@
 
 import { isLetter, MIRRORED, NOTHING, TURNED } from './characters.js';
 import { cellsOf } from './shapes.js';
+import { stationAt } from './text.js';
 
 /** A block {width, height, rows, stations} of the cells of a rectangle; lanes that leave it stay
  *  behind. */
@@ -19,8 +20,10 @@ export function copied(drawing, rect) {
   const isIn = ([column, row]) => column >= left && column < right && row >= bottom && row < top;
   const moved = ([column, row]) => [column - left, row - bottom];
   const lane = (cells) => (cells.every(isIn) ? cells.map(moved) : []);
-  const stations = drawing.stations.filter((s) => isIn(s.service)).map((s) => (
-    { ...s, service: moved(s.service), queue: lane(s.queue), exit: lane(s.exit) }));
+  const within = (cuts) => cuts.map(lane).filter((cut) => cut.length);
+  const stations = drawing.stations.filter((s) => isIn(s.service)).map((s) => ({
+    ...s, service: moved(s.service), queue: lane(s.queue), exit: lane(s.exit), short_cuts: lane(s.queue).length ? within(s.short_cuts) : [],
+  }));
   return { width: right - left, height: top - bottom, rows, stations };
 }
 
@@ -42,8 +45,7 @@ function mapped(block, width, height, moved, arrows) {
     const [x, y] = moved([column, row]);
     rows[y][x] = arrows[char] ?? char;
   }));
-  const stations = block.stations.map((s) => (
-    { ...s, service: moved(s.service), queue: s.queue.map(moved), exit: s.exit.map(moved) }));
+  const stations = block.stations.map((s) => stationAt(s, moved));
   return { width, height, rows, stations };
 }
 
@@ -54,11 +56,12 @@ export function putIn(drawing, block, [column, row]) {
   block.rows.forEach((line, y) => line.forEach((char, x) => {
     if (char !== NOTHING) drawing.set(x + column, y + row, char);
   }));
-  for (const { key, name, service, queue, exit, ...like } of block.stations) {
+  for (const { key, name, service, queue, exit, short_cuts: cuts, ...like } of block.stations) {
     const station = drawing.addStation(moved(service), like);
     if (!station) continue;
     rename(drawing, station, key, name);
     drawing.setLane(station, 'queue', queue.map(moved));
+    station.short_cuts = cuts.map((cut) => cut.map(moved));
     drawing.setLane(station, 'exit', exit.map(moved));
   }
 }

@@ -24,7 +24,7 @@ export class Drawing {
   clone() {
     const out = Object.assign(new Drawing(), this);
     out.cells = this.cells.slice();
-    out.stations = this.stations.map((s) => ({ ...s, queue: [...s.queue], exit: [...s.exit] }));
+    out.stations = this.stations.map((s) => ({ ...s, queue: [...s.queue], exit: [...s.exit], short_cuts: [...s.short_cuts] }));
     for (const what of ['robots', 'units']) if (Array.isArray(out[what])) out[what] = [...out[what]];
     out.owners = null;
     return out;
@@ -114,10 +114,10 @@ export class Drawing {
     if (station) {
       const [column, row] = station.service;
       if (this.holds(column, row)) this.cells[this.index(column, row)] = FLOOR.charCodeAt(0);
-      Object.assign(station, { service: cell, queue: [], exit: [] });
+      Object.assign(station, { service: cell, queue: [], exit: [], short_cuts: [] });
     } else {
       const kind = like.kind ?? 'pick';
-      station = { key, name: this.freeName(kind), kind, service: cell, queue: [], exit: [], settings: { ...like.settings } };
+      station = { key, name: this.freeName(kind), kind, service: cell, queue: [], exit: [], short_cuts: [], settings: { ...like.settings } };
       this.stations.push(station);
     }
     this.owners = null;
@@ -158,8 +158,15 @@ export class Drawing {
   }
 
   setLane(station, part, cells) {
+    if (part === 'queue') station.short_cuts = station.short_cuts.filter((cut) => this.isAhead(station, cells, cut));
     station[part] = cells;
     this.owners = null;
+  }
+
+  /** Whether a short cut leads farther ahead in a new queue of a station, or into it. */
+  isAhead({ queue, service }, cells, [from, to]) {
+    const way = [...cells, service], begin = indexOf(way, from);
+    return indexOf(way, to) > Math.max(0, begin + 1) && (begin >= 0 || indexOf(queue, from) < 0);
   }
 
   // --- sums
@@ -203,4 +210,5 @@ export class Drawing {
   }
 }
 
+const indexOf = (cells, cell) => cells.findIndex((c) => same(c, cell));
 const without = (cells, cell) => cells.filter((c) => !same(c, cell));

@@ -24,7 +24,7 @@ export function jsonOf(drawing) {
     name: drawing.name,
     spacing: drawing.spacing,
     floor,
-    stations: drawing.stations.map((s) => ({ ...s, service: moved(s.service), queue: places(s.queue), exit: places(s.exit) })),
+    stations: drawing.stations.map((s) => stationAt(s, moved)),
     elevators: drawing.elevators.map((e) => ({ ...e, cells: places(e.cells) })),
     storage_units: places(drawing.units),
     is_share: drawing.isShare,
@@ -52,7 +52,7 @@ export function drawingOf(json) {
   });
   const { name, spacing, stock, skus = '', policies, measured = '', building } = json;
   Object.assign(out, { name, spacing, stock, skus, policies, measured, building, isShare: json.is_share });
-  out.stations = json.stations.map((s) => ({ ...s, service: moved(s.service), queue: places(s.queue), exit: places(s.exit) }));
+  out.stations = json.stations.map((s) => stationAt(s, moved));
   out.elevators = (json.elevators ?? []).map((e) => ({ ...e, cells: places(e.cells) }));
   out.units = places(json.storage_units);
   out.robots = places(json.robots);
@@ -83,6 +83,12 @@ export function textOf(drawing) {
   return { text: `${lines.join('\n')}\n`, origin: json.origin };
 }
 
+/** A station whose cells are moved. */
+export function stationAt(s, moved) {
+  const cuts = (s.short_cuts ?? []).map((cut) => cut.map(moved));
+  return { ...s, service: moved(s.service), queue: s.queue.map(moved), exit: s.exit.map(moved), short_cuts: cuts };
+}
+
 const keyText = (key) => (/^[A-Za-z]\w*$/.test(key) ? key : JSON.stringify(key));
 
 /** A share of 1 is not a count of 1. */
@@ -90,13 +96,14 @@ function unitsOf({ storage_units: units, is_share: isShare }) {
   return isShare && Number.isInteger(units) ? units.toFixed(1) : JSON.stringify(units);
 }
 
-function entryOf({ key, name, kind, service, queue, exit, settings }) {
+function entryOf({ key, name, kind, service, queue, exit, short_cuts: cuts, settings }) {
   return {
     name,
     kind,
     ...(isLetter(key) ? {} : { service }),
     ...(queue.length ? { queue } : {}),
     ...(exit.length ? { exit } : {}),
+    ...(cuts.length ? { short_cuts: cuts } : {}),
     ...settings,
   };
 }

@@ -10,6 +10,7 @@ from warehouse_fleet.transports.transports import STAY, Kind
 from warehouse_layout.file.request import PRESETS
 from warehouse_layout.generate import generated
 from warehouse_operations.fleets.ideal import IdealFleet
+from warehouse_operations.fleets.odometer import Odometer, Stretch
 from warehouse_operations.stock.travel import Travel
 
 
@@ -84,6 +85,34 @@ def test_a_transport_from_the_first_event_to_the_last(where):
     assert [event.kind for event in run(fleet, 1000)] == [Kind.RELEASED, Kind.STORED]
     assert fleet.distance_m > 10 and fleet.waiting("pick1") == 0
     assert sum(fleet.activities().values()) == pytest.approx(fleet.time)
+
+
+def test_metres_count_as_they_are_driven(where):
+    """While a robot stands, broken or served, none are added."""
+    fleet = fleet_of(where)
+    assert fleet.submit(1, "pick1").accepted
+    events = run(fleet, 5.0)
+    assert events[-1].kind == Kind.LIFTED and fleet.distance_m < 10
+    way = fleet.travel.loaded_to(where.plan.stations[0].service_cell)
+    metres = [fleet.distance_m]
+    fleet.fail(1, 30.0)
+    for time in (20.0, 34.0, 35.0, 40.0, 45.0, 200.0, 300.0):
+        run(fleet, time)
+        metres.append(fleet.distance_m)
+    assert metres[:3] == [metres[0]] * 3  # it stands until 35 s
+    steps = np.diff(metres[3:6])
+    assert (steps > 3).all() and steps[0] == pytest.approx(steps[1])
+    assert metres[6:] == [pytest.approx(way.metres[where.units.get(1, -1)], abs=1e-6)] * 2
+
+
+def test_a_robot_that_turns_off_counts_what_it_drove():
+    odometer = Odometer()
+    odometer.begin(0, 0.0, Stretch(0.0, 10.0, 20.0))
+    odometer.begin(0, 0.0, Stretch(10.0, 20.0, 8.0))  # after it
+    odometer.begin(1, 0.0, Stretch(5.0, 5.0, 0.0))
+    assert [odometer.read(t) for t in (0.0, 5.0, 10.0, 15.0)] == [0, 10, 20, 24]
+    odometer.stop(0, 15.0)
+    assert odometer.read(100.0) == 24
 
 
 def test_units_are_served_in_the_order_in_which_they_come(where):

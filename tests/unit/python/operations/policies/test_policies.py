@@ -9,6 +9,7 @@ from operations_site import site
 
 from warehouse_operations import Operations, Policies, PolicyError
 from warehouse_operations.policies import ROLES
+from warehouse_operations.shift.kpis import served_visits
 from warehouse_operations.stock.travel import LeadTime
 
 CHOICES = [(role, name) for role, names in ROLES.items() for name in names]
@@ -146,7 +147,7 @@ def pieces_and_bundles_a_visit(batches, hours):
     ops = Operations(site=site(), physics=False, policies=Policies({"batches": batches}), seed=3)
     ops.run(hours=hours)
     kpis = ops.kpis()
-    visits = kpis["trips"] - kpis["items_picked"] / kpis["pile_on"]
+    _, visits = served_visits(ops.shift.tally, ops.shift.stations)
     return kpis["items_picked"], kpis["bundles_stored"] / visits, ops.shift.inventory.level
 
 
@@ -155,6 +156,19 @@ def test_bundles_that_go_together_save_trips():
     pieces, at_once, _ = pieces_and_bundles_a_visit("at once", hours=4)
     as_many, together, _ = pieces_and_bundles_a_visit("together", hours=4)
     assert as_many > 0.98 * pieces and together > 1.5 * at_once
+
+
+def test_visits_that_are_filled_save_trips_without_a_wait():
+    """No bundle waits for others: as much stock is put in as by visits for one each, or more."""
+    pieces, one_each, level = pieces_and_bundles_a_visit("at once", hours=4)
+    fills = {"name": "at once", "fills": True}
+    as_many, filled, filled_level = pieces_and_bundles_a_visit(fills, hours=4)
+    assert as_many > 0.98 * pieces and filled > 1.05 * one_each and filled_level > 0.98 * level
+
+
+def test_visits_are_filled_or_not():
+    with pytest.raises(PolicyError, match="fills is 'no'; true or false was expected"):
+        Policies({"batches": {"name": "at once", "fills": "no"}})
 
 
 def test_bundles_go_together_where_stock_is_low_as_well():
@@ -166,8 +180,9 @@ def test_bundles_go_together_where_stock_is_low_as_well():
 
 
 def test_a_bundle_that_comes_goes_along_with_a_unit_under_way():
-    for name in ("together", "at once"):
-        ops = Operations(site=site(), physics=False, policies=Policies({"batches": name}), seed=3)
+    filling = {"name": "at once", "fills": True}
+    for what in ("together", "at once", filling):
+        ops = Operations(site=site(), physics=False, policies=Policies({"batches": what}), seed=3)
         ops.run(minutes=1)
         shift = ops.shift
         station = shift.replenishing.stations[0]
@@ -180,7 +195,7 @@ def test_a_bundle_that_comes_goes_along_with_a_unit_under_way():
         before = len(visit.puts)
         shift.replenishing.order(sku, 1)
         shift.advance(shift.now)
-        assert (len(visit.puts) > before) == (name == "together")
+        assert (len(visit.puts) > before) == (what != "at once")
 
 
 @pytest.mark.parametrize("name", ["most lines", "most work"])

@@ -13,8 +13,10 @@ from instance_file import (
     write_tiers_instance,
 )
 
+from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_layout import convert as formats
 from warehouse_layout.file import layout_file
+from warehouse_layout.floor.stations import STEPS
 from warehouse_layout.place import placement
 from warehouse_operations.goods.kinds import MOST_BINS, Goods, Kinds
 from warehouse_operations.policies import Policies, PolicyError, rawsim_policies
@@ -29,6 +31,7 @@ from warehouse_operations.runs.simulation import (
 )
 from warehouse_operations.stock.inventory import Reason
 from warehouse_operations.stock.site import Site
+from warehouse_operations.stock.travel import Travel
 
 
 @pytest.mark.parametrize("spacing, old", [(1.0, False), (1.04, True), (1.0571, False)])
@@ -369,6 +372,37 @@ def test_a_shift_with_settings(tmp_path):
     )
     run, faults = simulate(description, tmp_path / "out")
     assert faults == [] and run.kpis["items_picked"] > 30
+
+
+@pytest.mark.parametrize("physics", [False, True])
+def test_robots_take_short_cuts_into_queues(tmp_path, physics):
+    """Ideal ones never drive the turns between them, simulated ones while others are ahead."""
+    path = str(write_hall_instance(tmp_path / "a.xinst"))
+    with open_operations(Description(instance=path, physics=physics, seed=1)) as ops:
+        ops.run(minutes=5)
+        for station in ops.site.plan.stations:
+            passes = ops.fleet.passages().flat[station.cells]
+            turns = passes[5:8]  # between the cell with a short cut and that with an entry
+            assert (turns < passes[11]).all() and passes[11] > 2, station.name
+            assert physics or not turns.any()
+        assert ops.fleet.stuck == 0
+
+
+def test_no_way_leads_through_the_lane_of_another_station(tmp_path):
+    """Even where a short cut, the service cell and the exit would be nearer than the streets."""
+    plan = read_instance(write_hall_instance(tmp_path / "a.xinst")).plan
+    travel = Travel(plan, Kinematics())
+    for station in plan.stations:
+        lane = set(station.cells.tolist())
+        before = next(cell for cell, _ in station.short_cuts if cell not in lane)
+        last = int(station.cells[-1])
+        steps = [dx + dy * plan.width for dx, dy in STEPS]
+        after = next(last + step for h, step in enumerate(steps) if plan.exits.flat[last] >> h & 1)
+        ways = [travel.loaded_from(before).cells(after), travel.loaded_to(after).cells(before)]
+        assert [lane & set(way) for way in ways] == [set(), set()]
+        assert before in travel.loaded_to(station.service_cell).cells(before)
+        out = travel.loaded_from(station.service_cell).cells(after)
+        assert set(out) & lane == set(station.cells[station.service :].tolist())
 
 
 def with_physics(seed, minutes=10, **site):

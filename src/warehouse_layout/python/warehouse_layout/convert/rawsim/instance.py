@@ -3,12 +3,13 @@
 
 Waypoints become cells: their places are snapped to the rows and columns that they form, whatever
 the spacing. A station's lane is its queue, from the far end to the station's own waypoint, and the
-queue waypoints after it. Units and robots are numbered from 1, in the file's order. Tiers lie side
-by side, and elevators lead from one to another.
+queue waypoints after it; further connections into the queue are short cuts. Units and robots are
+numbered from 1, in the file's order. Tiers lie side by side, and elevators lead from one to
+another.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
@@ -20,7 +21,14 @@ from warehouse_layout.convert.rawsim.grid import Grid, Waypoint, read_waypoints
 from warehouse_layout.convert.rawsim.xml_fields import InstanceError, children, number_of, read_root
 from warehouse_layout.floor.elevators import Elevator
 from warehouse_layout.floor.floor_plan import FloorPlan
-from warehouse_layout.floor.stations import PICK, REPLENISH, STEPS, Station
+from warehouse_layout.floor.stations import (
+    PICK,
+    REPLENISH,
+    STEPS,
+    Station,
+    lane_mask,
+    short_cuts,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,6 +158,10 @@ def _plan(
     for number, waypoint in waypoints.items():
         passable.flat[grid.cell[number]] = True
         storage.flat[grid.cell[number]] = waypoint.storage
+    streets = passable & ~storage & ~lane_mask(stations, exits.shape)
+    stations = [
+        replace(s, short_cuts=short_cuts(exits, streets, s.cells, s.service)) for s in stations
+    ]
     return FloorPlan.laid_out(
         origin=grid.origin,
         spacing=grid.spacing,

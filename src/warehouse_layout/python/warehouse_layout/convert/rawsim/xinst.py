@@ -6,7 +6,14 @@ from functools import partial
 import numpy as np
 
 from warehouse_layout.convert import arrows
-from warehouse_layout.convert.common import PathName, cells_of, named, on_grid, with_letters
+from warehouse_layout.convert.common import (
+    PathName,
+    cells_of,
+    cells_of_short_cuts,
+    named,
+    on_grid,
+    with_letters,
+)
 from warehouse_layout.convert.rawsim import stations as rawsim_stations
 from warehouse_layout.convert.rawsim.instance import Instance, read_floor
 from warehouse_layout.convert.rawsim.xml_fields import InstanceError, number_of
@@ -64,6 +71,7 @@ def _entry(path: PathName, instance: Instance, station: Station) -> StationEntry
         name=station.name,
         kind="pick" if is_pick else "replenish",
         queue=cells[: station.service],
+        short_cuts=cells_of_short_cuts(station, instance.plan.width),
         exit=cells[station.service + 1 :],
         settings=rawsim_stations.settings(partial(number_of, path, element), {}) if is_pick else {},
     )
@@ -77,7 +85,11 @@ def _items(path: PathName, instance: Instance) -> int:
 
 def _unsaid(path: PathName, instance: Instance) -> list[str]:
     short = cells_of((instance.paths & ~instance.plan.exits) != 0)
-    out = [f"a lane has one way in and one out; others end at {named(short)}"] if short else []
+    out = (
+        [f"a lane has one way out, and ways in from streets; others end at {named(short)}"]
+        if short
+        else []
+    )
     for station in instance.plan.stations:
         missing = [
             part

@@ -11,7 +11,12 @@ from typing import Any
 from xml.etree.ElementTree import Element
 
 from warehouse_layout.convert import arrows
-from warehouse_layout.convert.common import PathName, check_size, with_letters
+from warehouse_layout.convert.common import (
+    PathName,
+    cells_of_short_cuts,
+    check_size,
+    with_letters,
+)
 from warehouse_layout.convert.rawsim import stations as rawsim_stations
 from warehouse_layout.convert.rawsim import xlayo_floor
 from warehouse_layout.convert.rawsim.xlayo_floor import BLOCK_DEPTH, SIDES, Parameters
@@ -96,7 +101,7 @@ def read(path: PathName) -> tuple[LayoutFile, list[str]]:
         robots=numbers.count("BotCount", 32),
         items=units * min(max(1, held), shelves.CAPACITY),
     )
-    return with_letters(file), [*notes, *_unsaid(numbers, parameters)]
+    return with_letters(file), [*notes, *_unsaid(numbers)]
 
 
 def _parameters(numbers: _Numbers) -> Parameters:
@@ -164,19 +169,15 @@ def _entry(numbers: _Numbers, station: Station, width: int) -> StationEntry:
         name=station.name,
         kind="pick" if is_pick else "replenish",
         queue=tuple(cells[: station.service]),
+        short_cuts=cells_of_short_cuts(station, width),
         exit=tuple(cells[station.service + 1 :]),
         settings=rawsim_stations.settings(look_up, names) if is_pick else {},
     )
 
 
-def _unsaid(numbers: _Numbers, p: Parameters) -> list[str]:
+def _unsaid(numbers: _Numbers) -> list[str]:
     out = rawsim_stations.unlike_ours(lambda name, usual: numbers.number(name, usual, 0, 1e9))
     bundle = numbers.number("ItemBundleTransferTime", rawsim_stations.BUNDLE, 0, 1e9)
     if bundle != rawsim_stations.BUNDLE:
         out.append(f"a layout does not hold {bundle:g} s a bundle")
-    if p.turn > 1:
-        out.append(
-            "a lane has one way in and one out: the buffers' short cuts and further entries are"
-            " left out"
-        )
     return out

@@ -8,11 +8,12 @@ all of them. At each side with stations follow a hall and their buffers:
     aisle  streets that lead there and back in turn
     hall   streets that continue the rows (or columns) of the storage, crossed by others: the two
            outermost in the kind Tim, all of them in the kind HighwayHallway
-    buffer a queue that winds from its entry to the station, whose row leads back to the hall
+    buffer a queue that winds from its entry to the station, whose row leads back to the hall; each
+           second row is entered from the hall as well, and from the deep end of the one before
 """
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -225,15 +226,28 @@ class _Floor:
 
     # --- stations
 
-    def _stations(self, side: str) -> Iterator[tuple[str, np.ndarray, int]]:
-        """Yields kind, lane and index of the service cell of each station at a side."""
+    def _stations(self, side: str) -> Iterator[Station]:
+        """Yields the stations at a side, without names."""
         count = self._p.count(side)
         for i, exit_ in enumerate(self._exit_places(side)[:count]):
             cells = self._lane(side, exit_)
             width = self._p.shape[1]
             numbers = np.array([row * width + column for row, column in cells], np.int32)
             kind = PICK if i < self._p.picks[side] else REPLENISH
-            yield kind, numbers, len(cells) - self._p.buffer
+            cuts = tuple(self._short_cuts(side, exit_, numbers))
+            yield Station("", kind, numbers, len(cells) - self._p.buffer, short_cuts=cuts)
+
+    def _short_cuts(self, side: str, exit_: int, cells: np.ndarray) -> Iterator[tuple[int, int]]:
+        """Yields the steps into each second row of a buffer, but for the first: from the hall, and
+        from the deep end of the row before, which is where that begins."""
+        p = self._p
+        step = 1 if side in ("East", "North") else -1
+        step = step if p.counter_clockwise else -step
+        for k in range(2, p.turn, 2):
+            row, column = self._place(side, exit_ + step * (p.turn - k), -1)
+            yield row * p.shape[1] + column, int(cells[k * p.buffer])
+            if p.buffer > 1:
+                yield int(cells[(k - 1) * p.buffer]), int(cells[(k + 1) * p.buffer - 1])
 
     def _exit_places(self, side: str) -> list[int]:
         """Returns the rows or columns of stations' exits, those in the middle of a side."""
@@ -282,8 +296,8 @@ def _aisles(count: int, block: int, lanes: int) -> np.ndarray:
     return np.array(once * count + [False] * block)
 
 
-def _numbered(stations: Iterable[tuple[str, np.ndarray, int]]) -> Iterator[Station]:
+def _numbered(stations: Iterable[Station]) -> Iterator[Station]:
     counts = {PICK: 0, REPLENISH: 0}
-    for kind, cells, service in stations:
-        counts[kind] += 1
-        yield Station(f"{kind.lower()}{counts[kind]}", kind, cells, service)
+    for station in stations:
+        counts[station.kind] += 1
+        yield replace(station, name=f"{station.kind.lower()}{counts[station.kind]}")
