@@ -35,7 +35,9 @@ class CutOff:
 
     def _look_from(self, cell: int, goal: int, loaded: bool) -> np.ndarray:
         reached = self._reach(cell, loaded)
-        beside = np.flatnonzero((self._edges_of(False) == goal).any(1))  # loaded ones end there, too
+        beside = np.flatnonzero(
+            (self._edges_of(False) == goal).any(1)
+        )  # loaded ones end there, too
         if reached[goal] or reached[beside].any():
             return np.zeros(0, np.int32)
         ahead = np.unique(self._edges_of(loaded)[reached])
