@@ -35,11 +35,12 @@ NODE = "kiva_world_node"
 class Session:
     """A master and a warehouse of its own.
 
-    `await_ready`: entering waits until it takes calls. Arguments are those of warehouse.launch.
+    `await_ready`: entering waits until it takes calls. `file`: a launch file of warehouse_sim. The
+    other arguments are those of that file.
     """
 
-    def __init__(self, await_ready=True, **arguments):
-        self._await_ready = await_ready
+    def __init__(self, await_ready=True, file="warehouse.launch", **arguments):
+        self._await_ready, self._file = await_ready, file
         self._words = [f"{name}:={value}" for name, value in arguments.items()]
 
     def __enter__(self):
@@ -51,7 +52,7 @@ class Session:
         self.home = self._home.name
         self._log = open(f"{self.home}/roslaunch.log", "w+")  # noqa: SIM115, closed with it
         self._launches = []
-        words = ["warehouse.launch", *self._words, f"viewer_port:={self._page}"]
+        words = [self._file, *self._words, f"viewer_port:={self._page}"]
         self.launch("-p", str(port), "warehouse_sim", *words)
         try:
             self.wait(rosgraph.is_master_online, "the master")
