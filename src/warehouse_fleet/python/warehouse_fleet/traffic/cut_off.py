@@ -26,26 +26,38 @@ class CutOff:
             self._closed, self._known = closed, {}
 
     def obstacles(self, cell: int, goal: int, loaded: bool) -> np.ndarray:
-        """Returns, ascending, the obstacles at the edge of what a robot in a cell can reach if none
-        of that is its goal; else nothing."""
+        """Returns, ascending, the obstacles that each alone keep a robot in a cell from its goal;
+        where it takes several, those at the edge of what it can reach; nothing if it has a way."""
         key = (cell, goal, loaded)
         if key not in self._known:
             self._known[key] = self._look_from(*key)
         return self._known[key]
 
     def _look_from(self, cell: int, goal: int, loaded: bool) -> np.ndarray:
-        reached = self._reach(cell, loaded)
-        beside = np.flatnonzero(
-            (self._edges_of(False) == goal).any(1)
-        )  # loaded ones end there, too
-        if reached[goal] or reached[beside].any():
+        reached = self._reach(cell, loaded, self._closed)
+        if self._ends_at(goal, reached):
             return np.zeros(0, np.int32)
         ahead = np.unique(self._edges_of(loaded)[reached])
         ahead = ahead[ahead != NOWHERE]
-        return ahead[self._closed[ahead]]
+        ahead = ahead[self._closed[ahead]]
+        alone = [obstacle for obstacle in ahead if self._cuts_alone(obstacle, cell, goal, loaded)]
+        return np.array(alone, np.int32) if alone else ahead
 
-    def _reach(self, cell: int, loaded: bool) -> np.ndarray:
-        """Returns (cells,) bool: where a robot comes to from a cell."""
+    def _cuts_alone(self, obstacle: int, cell: int, goal: int, loaded: bool) -> bool:
+        """Returns whether a robot would come to its goal without that obstacle."""
+        closed = self._closed.copy()
+        closed[obstacle] = False
+        return self._ends_at(goal, self._reach(cell, loaded, closed))
+
+    def _ends_at(self, goal: int, reached: np.ndarray) -> bool:
+        """Returns whether a robot that comes to the cells `reached`, (cells,) bool, comes to its
+        goal: loaded ones may enter a storage place there."""
+        beside = (self._edges_of(False) == goal).any(1)
+        return bool(reached[goal] or (reached & beside).any())
+
+    def _reach(self, cell: int, loaded: bool, closed: np.ndarray) -> np.ndarray:
+        """Returns (cells,) bool: where a robot comes to from a cell while others, (cells,) bool,
+        are closed."""
         edges = self._edges_of(loaded)
         reached = np.zeros(len(edges), bool)
         reached[cell] = True
@@ -53,7 +65,7 @@ class CutOff:
         while len(front):
             ahead = np.unique(edges[front])
             ahead = ahead[ahead != NOWHERE]
-            front = ahead[~reached[ahead] & ~self._closed[ahead]]
+            front = ahead[~reached[ahead] & ~closed[ahead]]
             reached[front] = True
         return reached
 

@@ -228,14 +228,19 @@ class Traffic:
         if not stays.any():
             return
         self._cut_off.set_obstacles(closed[stays], self.plan.passable.size)
+        goals = self._goals()
         wait = (ahead == NOWHERE) & robots.stands & ~robots.busy & (robots.cell != NOWHERE)
-        wait &= (robots.goal != NOWHERE) & (robots.goal != robots.cell)
+        wait &= (goals != NOWHERE) & (goals != robots.cell)
         wait &= self.time - robots.still_since > STANDS
         for robot in np.flatnonzero(wait).tolist():
-            cell, goal = int(robots.cell[robot]), int(robots.goal[robot])
+            cell, goal = int(robots.cell[robot]), int(goals[robot])
             obstacles = self._cut_off.obstacles(cell, goal, bool(robots.loaded[robot]))
             if len(obstacles):
                 ahead[robot] = self._execution.holder(int(obstacles[0]))
+
+    def _goals(self) -> np.ndarray:
+        """Returns (n,) the cells to which robots drive now: goals, or elevators on the way."""
+        return self.elevators.goals() if self.elevators else self.robots.goal
 
     def holder(self, cell: int) -> int:
         """Returns the robot that a cell has been released to, or that stands there; or NOWHERE."""
@@ -340,15 +345,14 @@ class Traffic:
 
     def releases(self) -> Releases:
         """Returns the releases to send; adopts and begins plans that are due."""
-        robots, goal = self.robots, self.robots.goal
+        robots = self.robots
         if self.elevators:
             self.elevators.advance(self.time)
-            goal = self.elevators.goals()
         self._execution.set_work(self._stay, robots.loaded)
         self.plans.adopt_due(self.time)
         index, path_id, first, points, cells, released = self._execution.release()
         robots.waits_for = self._execution.waits_for()
-        self.plans.begin_due(self.time, goal, robots.home)
+        self.plans.begin_due(self.time, self._goals(), robots.home)
         x, y = self.plan.point_of(cells)
         return Releases(robots.kiva_ids[index], path_id, first, points, x, y, released)
 
