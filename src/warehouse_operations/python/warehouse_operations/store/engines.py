@@ -3,11 +3,12 @@
 
 import contextlib
 import os
+import time
 from pathlib import Path
 from typing import Any
 
 from sqlalchemy import create_engine, event, select, text
-from sqlalchemy.engine import Engine, make_url
+from sqlalchemy.engine import Connection, Engine, make_url
 from sqlalchemy.exc import SQLAlchemyError
 
 from warehouse_layout.file import user_file
@@ -16,6 +17,7 @@ from warehouse_operations.store.locks import FileLock, InUseError, holder
 
 MAGIC = b"SQLite format 3\0"
 LOCK = 0x6B697661  # identifies this program's locks in a server's database
+GIVEN_UP = 2.0  # by when a server has dropped the lock of a connection that was closed [s, wall]
 
 
 class DatabaseError(Exception):
@@ -147,6 +149,16 @@ def lock(engine: Engine, text: Any) -> contextlib.AbstractContextManager[Any]:
     return contextlib.nullcontext()
 
 
+def _takes_lock(connection: Connection, keys: dict[str, int]) -> bool:
+    """Returns whether an advisory lock could be taken. The server drops that of a connection which
+    was closed a moment later, so a database that is opened at once again has to wait for it."""
+    taken = select(text("pg_try_advisory_lock(:program, :place)")).params(keys)
+    end = time.monotonic() + GIVEN_UP
+    while not (is_taken := bool(connection.execute(taken).scalar())) and time.monotonic() < end:
+        time.sleep(GIVEN_UP / 40)
+    return is_taken
+
+
 def _server_lock(engine: Engine, name: str) -> contextlib.AbstractContextManager[Any]:
     """Takes an advisory lock, which the server drops when this process or its connection ends."""
     connection = engine.connect().execution_options(isolation_level="AUTOCOMMIT")
@@ -154,8 +166,7 @@ def _server_lock(engine: Engine, name: str) -> contextlib.AbstractContextManager
         text("SELECT oid::int FROM pg_namespace WHERE nspname = current_schema()")
     ).scalar()
     keys = {"program": LOCK, "place": in_schema or 0}
-    taken = select(text("pg_try_advisory_lock(:program, :place)")).params(keys)
-    if connection.execute(taken).scalar():
+    if _takes_lock(connection, keys):
         return contextlib.closing(connection)
     by = connection.execute(
         text(
