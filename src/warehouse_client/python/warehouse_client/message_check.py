@@ -31,8 +31,9 @@ def subscribe(
 ) -> Any:
     """Returns a rospy.Subscriber that calls take(message, *args) for each sound message.
 
-    ros: rospy, or what stands in for it in a test. options: those of rospy.Subscriber; unless told
-    otherwise, a message does not wait until the one before it is acknowledged, 40 ms.
+    ros: rospy, or what stands in for it in a test. options: those of rospy.Subscriber, but
+    tcp_nodelay is True by default: without it the publisher holds a message back for up to 40 ms,
+    until the subscriber's system has acknowledged the message before it.
     """
     options.setdefault("tcp_nodelay", True)
     gate = Gate(ros, topic, kind, lambda message: take(message, *args))

@@ -60,7 +60,7 @@ def run(driver, is_over, deadline=DEADLINE):
 
 
 def arrivals(count):
-    """Whether so many units have come to where they were to be brought."""
+    """Returns a condition on events: that so many units have arrived at their destinations."""
     return lambda events: sum(event.kind == Kind.ARRIVED for event in events) >= count
 
 
