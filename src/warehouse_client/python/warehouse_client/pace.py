@@ -22,7 +22,7 @@ class PaceKeeper:
 
     def __init__(self, lookahead: float) -> None:
         self._lookahead = rospy.Duration.from_sec(lookahead)
-        self._publisher = rospy.Publisher("warehouse/pace", Pace, queue_size=10, tcp_nodelay=True)
+        self._publisher = rospy.Publisher("warehouse/pace", Pace, queue_size=10)
         self._is_waited_for = False
         rospy.on_shutdown(self.release)
 

@@ -216,7 +216,12 @@ def test_a_robot_that_is_driven_by_velocities_is_manual_until_it_is_given_back(b
     assert fleet.controller.robots.mode.tolist() == [RobotMode.AUTOMATIC] * 2
 
 
-def test_a_robot_waits_for_a_broken_one_in_the_only_way_to_its_station(begin):
+@pytest.mark.parametrize("where", ["the only way to its station", "its own only way on"])
+def test_a_robot_that_brings_a_unit_waits_for_a_broken_one_in(begin, where):
+    cells = {
+        "the only way to its station": PLAN.station(STATION).cells[0],
+        "its own only way on": only_way_on(WHERE.robots[2]),
+    }
     fleet = begin()
     unit = unit_above(1)
     assert fleet.controller.transports.submit(unit, STATION).accepted
@@ -225,27 +230,7 @@ def test_a_robot_waits_for_a_broken_one_in_the_only_way_to_its_station(begin):
     fleet.reports["shelf_id"][1] = unit
     fleet.tick()
     assert fleet.step() == Step.BRINGING
-    fleet.put(0, int(next(s for s in PLAN.stations if s.name == STATION).cells[0]))
-    fleet.reports["failures"][0] = 1 << FailureKind.MOTOR
-    for _ in range(700):
-        fleet.tick()
-    traffic = fleet.controller.traffic
-    assert traffic.all_ahead().tolist() == [NOWHERE, 0]
-    waiting = Waiting(traffic, fleet.controller.transports.book)
-    assert dict(waiting.long())[1] == "behind kiva1, which is broken"
-    assert traffic.watchdog.count == 0
-
-
-def test_a_robot_waits_for_a_broken_one_that_cuts_it_off(begin):
-    fleet = begin()
-    unit = unit_above(1)
-    assert fleet.controller.transports.submit(unit, STATION).accepted
-    for _ in range(5):
-        fleet.tick()
-    fleet.reports["shelf_id"][1] = unit
-    fleet.tick()
-    assert fleet.step() == Step.BRINGING
-    fleet.put(0, only_way_on(WHERE.robots[2]))
+    fleet.put(0, int(cells[where]))
     fleet.reports["failures"][0] = 1 << FailureKind.MOTOR
     for _ in range(700):
         fleet.tick()

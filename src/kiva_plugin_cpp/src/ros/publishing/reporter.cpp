@@ -137,8 +137,7 @@ void Reporter::whenPublished(const kiva::World& world, std::function<void()> don
   Snapshot out;
   out.time = world.time();
   addObjects(world, &out, true);
-  out.reliable_clock = world.steps() != clock_sent_steps_;
-  clock_sent_steps_ = world.steps();
+  addReliableClock(world, &out);
   out.published = std::move(done);
   send(std::move(out));
 }
@@ -150,10 +149,7 @@ void Reporter::afterRequests(kiva::World& world, bool stands, bool moved) {
   updateSubscribedRobots();
   // Subscribers get the clock at once while time stands still, or after it jumped.
   const bool reset = world.steps() < last_steps_;
-  if ((stands || reset) && world.steps() != clock_sent_steps_) {
-    out.reliable_clock = true;
-    clock_sent_steps_ = world.steps();
-  }
+  if (stands || reset) addReliableClock(world, &out);
   if (moved && (stands || reset)) {
     addStatuses(world, &out);
     addFleet(world, &out);
@@ -169,8 +165,7 @@ void Reporter::afterRequests(kiva::World& world, bool stands, bool moved) {
 void Reporter::held(const kiva::World& world) {
   Snapshot out;
   out.time = world.time();
-  out.reliable_clock = world.steps() != clock_sent_steps_;
-  clock_sent_steps_ = world.steps();
+  addReliableClock(world, &out);
   addFleet(world, &out);
   send(std::move(out), true);
 }
@@ -224,6 +219,12 @@ void Reporter::addClock(const kiva::World& world, bool reliable, Snapshot* out) 
   }
   out->clock = true;
   if (reliable) clock_sent_steps_ = world.steps();
+}
+
+/// Adds the clock, whatever its rate, unless it was sent so at this step already.
+void Reporter::addReliableClock(const kiva::World& world, Snapshot* out) {
+  out->reliable_clock = world.steps() != clock_sent_steps_;
+  clock_sent_steps_ = world.steps();
 }
 
 /// Adds the status of robots with subscribers at kStatusRate. Adds the status of every robot once a

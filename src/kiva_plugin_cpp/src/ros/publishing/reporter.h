@@ -65,6 +65,7 @@ class Reporter {
   bool isAboutRobot(const kiva::World& world, const kiva::Event& event) const;
   void addStatuses(const kiva::World& world, Snapshot* out) const;
   void addClock(const kiva::World& world, bool reliable, Snapshot* out);
+  void addReliableClock(const kiva::World& world, Snapshot* out);
   void addHeartbeats(const kiva::World& world, Snapshot* out);
   void addPeriodic(const kiva::World& world, bool reliable, Snapshot* out);
   void updateSubscribedRobots();

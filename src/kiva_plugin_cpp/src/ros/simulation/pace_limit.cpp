@@ -12,13 +12,15 @@ constexpr double kRounding = 1e-6;  // [s], less than a step
 
 }  // namespace
 
+bool PaceLimit::Grant::holds(double time) const { return until <= time + kRounding; }
+
 void PaceLimit::allow(const std::string& node, double until, WallClock::time_point now) {
   grants_[node] = {until, now};
 }
 
 bool PaceLimit::holds(double time) const {
   return std::any_of(grants_.begin(), grants_.end(),
-                     [time](const auto& entry) { return entry.second.until <= time + kRounding; });
+                     [time](const auto& entry) { return entry.second.holds(time); });
 }
 
 std::vector<std::string> PaceLimit::releaseSilent(double time, WallClock::time_point stands_since,
@@ -27,7 +29,7 @@ std::vector<std::string> PaceLimit::releaseSilent(double time, WallClock::time_p
   for (auto it = grants_.begin(); it != grants_.end();) {
     const Grant& grant = it->second;
     const auto silent_since = std::max(grant.given_at, stands_since);
-    const bool is_silent = grant.until <= time + kRounding && now >= silent_since + kMostSilence;
+    const bool is_silent = grant.holds(time) && now >= silent_since + kMostSilence;
     if (is_silent) out.push_back(it->first);
     it = is_silent ? grants_.erase(it) : std::next(it);
   }

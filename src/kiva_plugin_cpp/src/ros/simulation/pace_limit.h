@@ -29,6 +29,8 @@ class PaceLimit {
   struct Grant {
     double until = 0;  ///< Simulated [s].
     WallClock::time_point given_at;
+
+    bool holds(double time) const;
   };
 
   std::map<std::string, Grant> grants_;  ///< By the node's name.

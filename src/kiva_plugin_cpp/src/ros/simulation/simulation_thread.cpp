@@ -136,20 +136,23 @@ double SimulationThread::restore(const std::string& checkpoint) {
 void SimulationThread::restoreHere(kiva::World& world, const std::string& checkpoint) {
   const std::vector<std::string> before = world.modelNames();
   world.restore(checkpoint);
-  pace_limit_.releaseAll();  // what they said was of another timeline
   moved_ = changed_ = true;
-  reporter_.beginTimeline();
+  beginTimeline();
   reporter_.restored(world, before);
   refuseCommands("the world went back to a checkpoint before its next step");
   retime(world.stepSize(), target_factor_);  // its step size may differ
+}
+
+void SimulationThread::beginTimeline() {
+  pace_limit_.releaseAll();  // what nodes have said was of another timeline
+  reporter_.beginTimeline();
 }
 
 void SimulationThread::reset(bool time_too) {
   move([this, time_too](kiva::World& world) {
     for (StepHook* hook : hooks_) hook->beforeReset(world);
     world.reset(time_too);
-    pace_limit_.releaseAll();
-    reporter_.beginTimeline();
+    beginTimeline();
     refuseCommands("the world was reset before its next step");
   });
 }

@@ -120,6 +120,7 @@ class SimulationThread {
   bool runs() const { return !paused_ && !lockstep_; }  ///< Whether time advances without step().
   void loop();
   void startClocks();
+  void beginTimeline();
   bool waitForWork(Requests* requests);  ///< Returns false when the thread is to end.
   void handleRequests(const Requests& requests);
   void advance();

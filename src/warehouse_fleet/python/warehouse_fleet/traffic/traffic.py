@@ -194,8 +194,10 @@ class Traffic:
         by = self._execution.holders(after[asks])
         ahead[asks] = np.where(by != asks, by, NOWHERE)  # it may hold that cell itself
         self._look_at_short_cuts(ahead)
-        self._look_for_barring(ahead)
-        self._look_for_cutting(ahead)
+        closed = self._execution.closed()
+        if len(closed):
+            self._look_for_barring(ahead, closed)
+            self._look_for_cutting(ahead, closed)
         return ahead
 
     def _look_at_short_cuts(self, ahead: np.ndarray) -> None:
@@ -207,23 +209,19 @@ class Traffic:
         by = self._execution.holders(ways[asks])
         ahead[asks] = np.where(by != asks, by, NOWHERE)
 
-    def _look_for_barring(self, ahead: np.ndarray) -> None:
-        """Has robots without one `ahead` wait for that which bars their goal."""
-        robots, closed = self.robots, self._execution.closed().tolist()
-        if not closed:
-            return
-        bars = {**dict(zip(closed, closed)), **self._ways.barring(set(closed))}  # by goal
+    def _look_for_barring(self, ahead: np.ndarray, closed: np.ndarray) -> None:
+        """Has robots without one `ahead` wait for that in a `closed` cell which bars their goal."""
+        robots, cells = self.robots, closed.tolist()
+        bars = {**dict(zip(cells, cells)), **self._ways.barring(set(cells))}  # by goal
         wait = (ahead == NOWHERE) & ~robots.busy & (robots.goal != robots.cell)
         wait = np.flatnonzero(wait & np.isin(robots.goal, list(bars)))
         by = self._execution.holders([bars[goal] for goal in robots.goal[wait].tolist()])
         ahead[wait] = np.where(by != wait, by, NOWHERE)
 
-    def _look_for_cutting(self, ahead: np.ndarray) -> None:
-        """Has robots that have stood a while without one `ahead` wait for the one that leaves them
-        no way to their goal, as it does not drive."""
-        robots = self.robots
-        closed = self._execution.closed()
-        by = self._execution.holders(closed)
+    def _look_for_cutting(self, ahead: np.ndarray, closed: np.ndarray) -> None:
+        """Has robots that have stood a while without one `ahead` wait for the one in a `closed`
+        cell that leaves them no way to their goal, as it does not drive."""
+        robots, by = self.robots, self._execution.holders(closed)
         stays = (by != NOWHERE) & (robots.broken | ~robots.automatic)[by]
         if not stays.any():
             return
