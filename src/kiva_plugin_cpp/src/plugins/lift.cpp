@@ -38,12 +38,10 @@ Above findAbove(const Scene& world, int i) {
   Above above;
   const Fleet& f = world.fleet;
   const std::vector<Footprint>& all = world.obstacles.footprints(i);
-  double reach = 0;
-  for (const Footprint& own : all) {
-    reach = std::max(reach, std::hypot(own.x - f.x[i], own.y - f.y[i]) + radiusOf(own));
-  }
-  world.obstacles.near(f.x[i], f.y[i], reach, [&](const Footprint& other) {
-    if (other.group == i) return;
+  double lowest = 1e9;  // middle of a footprint: what hangs above one is above it
+  for (const Footprint& own : all) lowest = std::min(lowest, (own.z_min + own.z_max) / 2);
+  world.obstacles.near(f.x[i], f.y[i], world.obstacles.radius(i), [&](const Footprint& other) {
+    if (other.group == i || other.z_min <= lowest) return;
     for (const Footprint& own : all) {
       const double clearance = std::max(0.0, other.z_min - own.z_max);
       if (clearance < above.clearance && isAbove(own, other)) above = {clearance, other.model};
@@ -199,16 +197,6 @@ void lowerEmptyTower(TaskView& world, Obstacles& obstacles, int i) {
   moveTower(world, obstacles, i, 0);
 }
 
-/// Prefetches the tasks of the robots that follow at place `k` of a list. Tasks of a large fleet
-/// lie apart, and cache misses took most of this loop's time.
-void fetchAhead(const FleetState& f, const std::vector<int>& robots, std::size_t k) {
-  constexpr std::size_t kTask = 12, kSegment = 6;  // distance in robots
-  if (k + kTask < robots.size()) __builtin_prefetch(&f.tasks[robots[k + kTask]].segments);
-  if (k + kSegment >= robots.size()) return;
-  const Task& soon = f.tasks[robots[k + kSegment]];
-  if (soon.segment()) __builtin_prefetch(soon.segment());
-}
-
 }  // namespace
 
 void LiftPlugin::configure(Robot& robot, const Parameters& p) const {
@@ -222,7 +210,7 @@ void LiftPlugin::control(ContactView& world) const {
   const FleetState& f = world.fleet;
   const std::vector<int>& robots = world.schedule.stepped_singly;
   for (std::size_t k = 0; k < robots.size(); ++k) {
-    fetchAhead(f, robots, k);
+    fetchTasksAhead(f, robots, k);
     const int i = robots[k];
     const Task& task = f.tasks[i];
     const bool is_up_empty = f.tower[i] > 0 && f.unit[i] < 0;

@@ -52,9 +52,8 @@ bool hides(const Footprint& box, const Footprint& other) {
          std::abs(dy * box.c - dx * box.s) + reach <= box.hy;
 }
 
-/// Restricts a range of heights to those that the other footprint does not have.
+/// Restricts a range of heights, which the other footprint shares, to those that it does not have.
 void keepOff(const Footprint& other, double* low, double* high) {
-  if (other.z_max < *low || other.z_min > *high) return;
   if (*high - other.z_max > other.z_min - *low) {
     *low = other.z_max;
   } else {
@@ -76,7 +75,7 @@ double gapToCircle(const Footprint& box, const Footprint& circle) {
   const double along = std::abs(dx * box.c + dy * box.s) - box.hx;
   const double across = std::abs(-dx * box.s + dy * box.c) - box.hy;
   if (along < 0 || across < 0) return std::max(along, across) - circle.hx;
-  return std::hypot(along, across) - circle.hx;
+  return lengthOf(along, across) - circle.hx;
 }
 
 }  // namespace
@@ -88,7 +87,7 @@ double gap(const Footprint& a, const Footprint& b) {
   if (box_a && box_b) return std::max(gapAlongAxes(a, b), gapAlongAxes(b, a));
   if (box_a) return gapToCircle(a, b);
   if (box_b) return gapToCircle(b, a);
-  return std::hypot(b.x - a.x, b.y - a.y) - a.hx - b.hx;
+  return lengthOf(b.x - a.x, b.y - a.y) - a.hx - b.hx;
 }
 
 void Obstacles::clear() {
@@ -148,7 +147,7 @@ void Obstacles::setMover(int robot, std::vector<Footprint> local) {
   }
   radius_[robot] = 0;
   for (const Footprint& f : local) {
-    radius_[robot] = std::max(radius_[robot], std::hypot(f.x, f.y) + radiusOf(f));
+    radius_[robot] = std::max(radius_[robot], lengthOf(f.x, f.y) + radiusOf(f));
   }
   Mover& mover = movers_[robot];
   mover.world = local;
@@ -234,7 +233,9 @@ Obstacles::Silhouette::Silhouette(const std::vector<Footprint>& local, double of
     if (box.kind != Footprint::Kind::kBox) continue;
     double low = box.z_min, high = box.z_max;
     for (const Footprint& other : local) {
-      if (&other != &box && !hides(box, other)) keepOff(other, &low, &high);
+      if (high - low < z_max - z_min) break;  // the one before is better
+      if (&other == &box || other.z_max < low || other.z_min > high) continue;
+      if (!hides(box, other)) keepOff(other, &low, &high);
     }
     const float lowest = above(low), highest = -above(-high);
     if (!(highest - lowest > z_max - z_min)) continue;

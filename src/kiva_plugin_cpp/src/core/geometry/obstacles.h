@@ -62,6 +62,8 @@ class Obstacles {
   void raise(int robot, int model, double by);
   /// Returns a mover's footprints in the robot's frame.
   const std::vector<Footprint>& ofMover(int robot) const { return movers_[robot].local; }
+  /// Returns the radius of the circle around the robot that contains its mover [m].
+  double radius(int robot) const { return radius_[robot]; }
   /// Removes a mover. The last mover takes its index, as in the fleet.
   void removeMover(int robot);
   /// Updates the index if the mover has left its circle, or might leave it within the next `way`

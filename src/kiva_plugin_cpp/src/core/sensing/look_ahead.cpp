@@ -48,7 +48,7 @@ Sighting sightingOf(const Scene& world, const Scans& scans, int robot) {
   sighting.taken = true;
   sighting.along = alongSegment(world.fleet, robot);
   const double reach = reachOfInterest(world, robot) - sighting.along - r.laser.x;
-  const double farthest = std::min(r.laser.max_range, std::hypot(std::max(0.0, reach), half));
+  const double farthest = std::min(r.laser.max_range, lengthOf(std::max(0.0, reach), half));
   // A ray matters until it leaves the corridor.
   castRays(world, scans, robot, {farthest, half}, &hits);
   sighting.distance = std::numeric_limits<double>::infinity();
@@ -91,6 +91,7 @@ void lookAhead(RobotView& world, Scans& scans, const std::vector<int>& robots) {
   const auto count = static_cast<int>(robots.size());
   world.schedule.workers->share(count, kLooksTogether, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
+      fetchTasksAhead(f, robots, k);
       if (looksAlongArc(f, robots[k])) lookAlongArc(world, scans, robots[k]);
       if (!isOnGuard(f, robots[k])) continue;
       looked[k] = 1;

@@ -16,7 +16,7 @@ namespace {
 constexpr int kEventQueue = 1000000;
 
 constexpr std::size_t kCrowd = 10;  // messages at once
-constexpr auto kBatch = std::chrono::milliseconds(2);
+constexpr auto kBatch = std::chrono::milliseconds(1);
 
 std_msgs::String hashMessage(const std::string& hash) {
   std_msgs::String out;

@@ -7,7 +7,7 @@
 namespace kiva_ros {
 namespace {
 
-constexpr double kBatch = 0.005;      // [s]
+constexpr double kBatch = 0.002;      // [s]
 constexpr double kMostArrears = 0.1;  // [s]
 constexpr int kUnpacedSteps = 1000;
 constexpr double kMostSteps = 1e6;  // in a batch, for any factor

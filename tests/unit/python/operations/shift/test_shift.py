@@ -246,14 +246,21 @@ def test_storage_units_that_are_gone_are_written_off_and_new_ones_taken_in(
     assert check.faults(engine) == []
 
 
-def test_a_sku_that_lost_all_its_bins_finds_another(tmp_path):
+FILLED = {"name": "at once", "fills": True}
+
+
+@pytest.mark.parametrize("batches", ["at once", FILLED, "together"], ids=str)
+def test_a_sku_that_lost_all_its_bins_finds_another(tmp_path, batches):
     path, whole = tmp_path / "run.db", site()
     with Operations(site=whole, database=path, orders="none") as ops:
         homes = {}
         for bin_ in ops.shift.inventory.bins.values():
             homes.setdefault(bin_.sku, set()).add(bin_.unit)
     sku, units = min(homes.items(), key=lambda pair: len(pair[1]))
-    with Operations(site=without(whole, units), database=path, orders="fill:60") as ops:
+    policies = {"batches": batches}
+    with Operations(
+        site=without(whole, units), database=path, orders="fill:60", policies=policies
+    ) as ops:
         order, _ = ops.shift.submit([(sku, 2)])
         ops.run(hours=6)
         assert order.state == OrderState.COMPLETED

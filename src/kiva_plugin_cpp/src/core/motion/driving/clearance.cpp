@@ -40,7 +40,7 @@ bool turnsInPlace(const FleetState& f, int i) {
 double approachSpeed(const FleetState& f, int i) {
   if (turnsInPlace(f, i)) return f.localises ? kWanders : 0;
   const double speed = f.robots[i].drive.speed;
-  return f.activated[i] ? std::max(speed, std::hypot(f.vx[i], f.vy[i]) + kPushed) : speed;
+  return f.activated[i] ? std::max(speed, lengthOf(f.vx[i], f.vy[i]) + kPushed) : speed;
 }
 
 /// Returns the robot with its load as one upright box, in world.
@@ -60,7 +60,7 @@ Footprint boxOf(const Fleet& f, int i) {
 /// Returns the circle that contains the box at any heading.
 Footprint turned(Footprint box) {
   box.kind = Footprint::Kind::kCircle;
-  box.hx = std::hypot(box.hx, box.hy);
+  box.hx = lengthOf(box.hx, box.hy);
   return box;
 }
 
@@ -68,7 +68,7 @@ Footprint turned(Footprint box) {
 Footprint shifted(Footprint box, double dx, double dy) {
   box.x += dx / 2;
   box.y += dy / 2;
-  box.hx += std::hypot(dx, dy) / 2;
+  box.hx += lengthOf(dx, dy) / 2;
   return box;
 }
 
@@ -96,7 +96,7 @@ Footprint sweep(const FleetState& f, int i, double time) {
   own.hy += kAstray;
   if (!task.segment() || task.isAt(MotionSegment::Kind::kTurn)) own = turned(own);
   if (task.segment() && !task.isAt(MotionSegment::Kind::kDrive)) return own;
-  own.hx += std::max(f.robots[i].drive.speed, std::hypot(f.vx[i], f.vy[i])) * time;
+  own.hx += std::max(f.robots[i].drive.speed, lengthOf(f.vx[i], f.vy[i])) * time;
   return own;
 }
 
@@ -157,7 +157,7 @@ bool isClearFor(const Scene& world, int i, double time) {
 Footprint holding(const std::vector<Footprint>& all) {
   Footprint circle = circleAt(all.front().x, all.front().y, 0);
   for (const Footprint& footprint : all) {
-    const double away = std::hypot(footprint.x - circle.x, footprint.y - circle.y);
+    const double away = lengthOf(footprint.x - circle.x, footprint.y - circle.y);
     circle.hx = std::max(circle.hx, away + radiusOf(footprint));
   }
   return circle;
@@ -205,7 +205,7 @@ bool hasClearance(const Scene& world, int i) {
 
 double pointSpeed(const FleetState& f, int i) {
   const Robot& r = f.robots[i];
-  const double speed = std::hypot(f.vx[i], f.vy[i]) + std::abs(f.yaw_rate[i]) * cornerRadius(r);
+  const double speed = lengthOf(f.vx[i], f.vy[i]) + std::abs(f.yaw_rate[i]) * cornerRadius(r);
   const bool at_once = r.drive.acceleration == 0 || r.drive.quarter_turn_time == 0;
   return at_once ? std::max(speed, r.drive.speed + kCornerSpeed) : speed;
 }
