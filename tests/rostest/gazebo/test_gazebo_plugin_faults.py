@@ -12,7 +12,7 @@ from geometry_msgs.msg import Vector3, Wrench
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Log
 from rostest_support.node_test import call, wait_until
-from rostest_support.warehouse_test import Collector, delete, pose, state
+from rostest_support.warehouse_test import Collector, delete, pose, state, world_log
 from sensor_msgs.msg import LaserScan
 
 from gazebo_msgs.srv import SpawnModel
@@ -63,11 +63,6 @@ class Plugins(unittest.TestCase):
             truth.first(lambda m: m.twist.twist.linear.z < -1)
         pusher.unregister()
 
-    def log(self):
-        log = Collector("/rosout", Log)
-        wait_until(lambda: log.connections() > 1, "the world's log beside our own")
-        return log
-
     def told(self, log, name, text):
         """The warning about the plugin of that name that has that text."""
         record = log.first(lambda m: f"'{name}'" in m.msg and text in m.msg)
@@ -76,11 +71,11 @@ class Plugins(unittest.TestCase):
 
     def test_what_is_lacking_is_told_with_what_to_do(self):
         xml = (ROBOTS / "controllers.urdf").read_text()
-        with self.log() as log:
-            call("/gazebo/spawn_urdf_model", SpawnModel, "weight", xml, "", pose(), "")
-            control = self.told(log, "gazebo_ros_control", "libgazebo_ros_diff_drive.so")
-            self.assertIn("'weight'", control)
-            self.told(log, "camera_controller", "nothing is rendered here")
+        log = world_log()
+        call("/gazebo/spawn_urdf_model", SpawnModel, "weight", xml, "", pose(), "")
+        control = self.told(log, "gazebo_ros_control", "libgazebo_ros_diff_drive.so")
+        self.assertIn("'weight'", control)
+        self.told(log, "camera_controller", "nothing is rendered here")
         self.assertTrue(state("weight").success)
 
     def test_a_faulty_parameter_costs_its_plugin_and_is_told(self):
@@ -106,9 +101,9 @@ class Plugins(unittest.TestCase):
         }
         for number, ((plugin, parameters), text) in enumerate(faults.items()):
             name = f"p{number}"
-            with self.log() as log:
-                self.spawn((name, plugin, parameters))
-                message = self.told(log, name, text)
+            log = world_log()
+            self.spawn((name, plugin, parameters))
+            message = self.told(log, name, text)
             self.assertIn("the plugin is left out", message)
             self.assertTrue(state("weight").success)
             delete("weight")
@@ -119,9 +114,9 @@ class Plugins(unittest.TestCase):
             "<height>20000</height></image></camera>%s</sensor>"
         )
         sensor = camera % (PLUGIN % ("eye_plugin", "depth_camera", ""))
-        with self.log() as log:
-            self.spawn(sensors=sensor)
-            message = self.told(log, "eye_plugin", "everyNthPixel")
+        log = world_log()
+        self.spawn(sensors=sensor)
+        message = self.told(log, "eye_plugin", "everyNthPixel")
         self.assertIn("20000 x 20000", message)
 
 

@@ -22,6 +22,7 @@ from rostest_support.warehouse_test import (
     sim_time,
     spawn,
     state,
+    world_log,
 )
 from sensor_msgs.msg import Imu, JointState, LaserScan
 from std_srvs.srv import Empty
@@ -39,13 +40,6 @@ def spawn_rover(xml=URDF, namespace="/", where=None):
         "/gazebo/spawn_urdf_model", SpawnModel, "rover", xml, namespace, where or pose(), ""
     )
     assert answer.success, answer.status_message
-
-
-def rosout():
-    """What the world logs from now on."""
-    log = Collector("/rosout", Log)
-    wait_until(lambda: log.connections() > 1, "the world's log beside our own")
-    return log
 
 
 def yaw_of(message):
@@ -162,11 +156,11 @@ class Spawning(unittest.TestCase):
         delete("rover")
 
     def test_a_plugin_that_nobody_knows_is_one_warning_that_names_it(self):
-        with rosout() as log:
-            # A name of its own: it is told once.
-            spawn_rover(URDF.replace("teapot", "kettle"))
-            warning = log.first(lambda m: "libgazebo_ros_kettle.so" in m.msg)
-            self.assertEqual(warning.level, Log.WARN)
+        log = world_log()
+        # A name of its own: it is told once.
+        spawn_rover(URDF.replace("teapot", "kettle"))
+        warning = log.first(lambda m: "libgazebo_ros_kettle.so" in m.msg)
+        self.assertEqual(warning.level, Log.WARN)
         self.assertTrue(state("rover").success)
 
     def test_a_namespace_holds_for_every_plugin_without_one(self):
@@ -213,9 +207,9 @@ class Spawning(unittest.TestCase):
             "<wheelTorque>10": "<wheelTorque>x",
         }
         for good, bad in faults.items():
-            with rosout() as log:
-                spawn_rover(URDF.replace(good, bad))
-                log.first(lambda m: "plugin 'drive': the plugin is left out" in m.msg)
+            log = world_log()
+            spawn_rover(URDF.replace(good, bad))
+            log.first(lambda m: "plugin 'drive': the plugin is left out" in m.msg)
             self.assertTrue(state("rover").success)
             delete("rover")
 

@@ -81,6 +81,17 @@ def pid(node):
         return None
 
 
+def sends(publisher, subscriber, topic):
+    """Whether what one node publishes on a topic from now on goes to another, by what the first
+    knows; a subscriber believes so a moment before."""
+    try:
+        address = rosgraph.Master("/test").lookupNode(publisher)
+        rows = ServerProxy(address).getBusInfo("/test")[2]
+    except (rosgraph.MasterException, OSError):
+        return False
+    return any((to, way, name) == (subscriber, "o", topic) for _, to, way, _, name, *_ in rows)
+
+
 def kill(node, meanwhile=lambda: None):
     """Kills a node without a chance to say goodbye, and waits for the next of that name. What is
     done meanwhile it does not see."""

@@ -4,12 +4,14 @@
 Everything waits for what it needs, with a deadline of wall time; nothing sleeps.
 """
 
+import functools
 import math
 import threading
 
 import rospy
 from geometry_msgs.msg import Point, Pose, Quaternion
-from rostest_support.node_test import PATIENCE, call, wait_until
+from rosgraph_msgs.msg import Log
+from rostest_support.node_test import PATIENCE, call, sends, wait_until
 from std_srvs.srv import Empty
 
 from gazebo_msgs.srv import DeleteModel, GetModelState, GetWorldProperties, SpawnModel
@@ -77,6 +79,21 @@ class Collector:
 
     def __exit__(self, *_):
         self.close()
+
+
+@functools.cache
+def _rosout():
+    # One subscription for all tests: after one that has ended the world would seem to send already.
+    log = Collector("/rosout", Log)
+    wait_until(lambda: sends("/gazebo", rospy.get_name(), "/rosout"), "the world's log")
+    return log
+
+
+def world_log():
+    """A Collector of what the world logs from now on; the other nodes' records are among them."""
+    log = _rosout()
+    log.clear()
+    return log
 
 
 class Commander:

@@ -63,6 +63,9 @@ constexpr int kCallbackThreads = 4;  // each may block on the step thread
 // each thread, memory grew by four fifths while a large warehouse was created again and again.
 constexpr int kHeaps = 1;
 
+// Passes before fast time waits for the nodes that it awaits, so that there is a clock [s].
+constexpr double kFirstTime = 0.1;
+
 volatile std::sig_atomic_t serving = 0, asked_to_stop = 0;
 
 /// Handles signals. roscpp handles SIGINT alone, and closes its connections abruptly.
@@ -172,6 +175,9 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   simulation.add(shadows);  // follows the recorder, whose keyframes precede its changes
 
   announce(world, settings, rtf);
+  for (const std::string& name : settings.awaits) {
+    simulation.awaitNode(name, world.time() + kFirstTime);
+  }
   simulation.start();
   ros::AsyncSpinner spinner(kCallbackThreads);
   spinner.start();

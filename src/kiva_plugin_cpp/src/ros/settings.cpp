@@ -196,6 +196,20 @@ std::vector<int> robotIds(const ros::NodeHandle& node, const std::string& name) 
   return ids;
 }
 
+/// Returns the full names of nodes in a text with blanks between them.
+std::vector<std::string> nodeNames(const ros::NodeHandle& node, const std::string& name) {
+  std::vector<std::string> out;
+  std::istringstream words(text(node, name, ""));
+  for (std::string word; words >> word;) {
+    std::string error;
+    if (!ros::names::validate(word, error)) {
+      refuse(node, name, XmlRpc::XmlRpcValue(word), "names of nodes with blanks between");
+    }
+    out.push_back(ros::names::resolve(word));
+  }
+  return out;
+}
+
 double mapResolution(const ros::NodeHandle& node, double fallback) {
   const std::string expected = "a cell of 0.01 to 1 m";
   const double out = number(node, "map_resolution", fallback, 0.01, expected);
@@ -227,6 +241,7 @@ Settings readSettings(const ros::NodeHandle& node) {
   out.world.drive = drive(node, "drive");
   out.world.realism = realism(node);
   out.world.threads = threads(node);
+  out.awaits = nodeNames(node, "awaits");
   out.lockstep = flag(node, "lockstep");
   out.autosave =
       static_cast<int>(wholeNumber(node, "autosave", 0, 1e5, "a whole number from 0 to 100000"));

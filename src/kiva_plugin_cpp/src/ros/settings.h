@@ -32,6 +32,8 @@ namespace kiva_ros {
 ///                            (doc/explanation/realism.md); not set: what the robots' files say
 ///   ~threads                 on which a large fleet is stepped, looks ahead and scans; default 0:
 ///                            the machine's cores but one. The result is the same
+///   ~awaits                  nodes, with blanks between, for which fast time waits at its start as
+///                            if they had published on /warehouse/pace; empty (default): none
 ///   ~lockstep                true: time advances by ~step alone; default false
 ///   ~autosave                how many checkpoints to keep for /warehouse/undo, one a simulated
 ///                            second; default 0: only that before the last reset
@@ -57,6 +59,7 @@ struct Settings {
   kiva::ModelPaths world_model_paths;  ///< For the world file; its author's come first.
   std::optional<double> rtf;
   kiva::WorldOptions world;
+  std::vector<std::string> awaits;  ///< Full names of nodes.
   bool lockstep = false;
   int autosave = 0;
   std::string checkpoint_folder;

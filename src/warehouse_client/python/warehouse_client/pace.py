@@ -22,7 +22,8 @@ class PaceKeeper:
 
     def __init__(self, lookahead: float) -> None:
         self._lookahead = rospy.Duration.from_sec(lookahead)
-        self._publisher = rospy.Publisher("warehouse/pace", Pace, queue_size=10)
+        # Latched: what was said before the world has found this node still holds.
+        self._publisher = rospy.Publisher("warehouse/pace", Pace, latch=True, queue_size=10)
         self._is_waited_for = False
         rospy.on_shutdown(self.release)
 

@@ -7,6 +7,7 @@ import rospy
 
 from warehouse_vda5050.arguments import BrokerArguments, home, own_broker, read_arguments
 from warehouse_vda5050.broker_topic import BrokerTopic, vehicles_message
+from warehouse_vda5050.ros import pace_check
 from warehouse_vda5050.ros.fault_desk import FaultDesk, read_script
 from warehouse_vda5050.vehicles import SiteSettings, Vehicles
 from warehouse_vda5050.world_link import WorldLink
@@ -33,6 +34,7 @@ class VehiclesNode:
             home() / "vda5050_logs",
         )
         rospy.loginfo(f"vehicles of VDA 5050 {arguments.codec.version} at {self._address}")
+        pace_check.warn(pace_check.OF_MASTER)
         self._world = WorldLink()
         self._vehicles = Vehicles(self._world, settings, self._world.happened)
         self._faults = FaultDesk(self._vehicles, script)

@@ -11,6 +11,7 @@ from test_failures import Fleet
 from warehouse_fleet.robots.robot_table import NOWHERE
 from warehouse_fleet.traffic.closed_zones import MOST, ClosedZone, ClosedZones, ZoneRequest
 from warehouse_fleet.transports.transports import Kind, Step
+from warehouse_layout.floor.floor_edges import FloorEdges
 
 WARM_UP = 30  # [s]
 LEAVES = 45  # in which the last robot has left a zone [s]
@@ -26,7 +27,7 @@ PLAN = fleet_site()
 
 def zones_of(plan=PLAN):
     cells = []
-    return ClosedZones(plan, plan.floor(), cells.append), cells
+    return ClosedZones(plan, FloorEdges(plan.floor()), cells.append), cells
 
 
 def point(cell, plan=PLAN):
@@ -141,6 +142,58 @@ def test_a_zone_opens_by_itself_and_survives_another_time():
 
 
 # --- a fleet at work
+
+
+def exits_within(plan, edges, part):
+    """Returns the storage places that are left by the streets `part`, (cells,) bool, alone."""
+    places = np.flatnonzero(plan.storage)
+    exits = edges.ahead(True)[places]
+    return places[((exits == NOWHERE) | part[exits]).all(1) & (exits != NOWHERE).any(1)]
+
+
+def one_way_behind(plan, edges, cell):
+    """Returns (cells,) bool: the streets from which no street leads to most others once a cell is
+    closed, as it is the end of theirs."""
+    closed = np.zeros(plan.passable.size, bool)
+    closed[cell] = True
+    streets = (plan.passable & ~plan.storage & ~plan.lane & ~plan.parking).ravel() & ~closed
+    start = np.flatnonzero(streets)[-1]
+    ahead = edges.ahead(True)
+    back = np.zeros_like(closed)
+    back[start] = True
+    grown = 0
+    while back.sum() != grown:
+        grown = back.sum()
+        back |= streets & ((ahead != NOWHERE) & back[ahead]).any(1)
+    return streets & ~back
+
+
+def test_what_is_before_the_closed_end_of_a_one_way_street_is_fetched_and_stored_again():
+    """Robots drive a street against its direction that a zone has cut."""
+    with Fleet("large") as fleet:
+        plan, edges = fleet.driver.plan, FloorEdges(fleet.traffic.floor)
+        streets = np.flatnonzero(plan.passable & ~plan.storage & ~plan.lane & ~plan.parking)
+        behind = max(
+            ((one_way_behind(plan, edges, cell), cell) for cell in streets[:60].tolist()),
+            key=lambda pair: len(exits_within(plan, edges, pair[0])),
+        )
+        places = set(exits_within(plan, edges, behind[0]).tolist())
+        fleet.run(WARM_UP)
+        close(fleet, [behind[1]])
+        units = {unit for unit, cell in fleet.transports.cell_of_unit.items() if cell in places}
+        assert len(units) > 3
+        assert not fleet.traffic.is_cut[list(places)].any()
+
+        def has_left():
+            arrived = {e.shelf_id for e in fleet.events if e.kind == Kind.ARRIVED} & units
+            return len(arrived) > 1 and len({*places} & set(stored())) > 0
+
+        def stored():
+            after = [e.shelf_id for e in fleet.events if e.kind == Kind.STORED]
+            return [fleet.transports.cell_of_unit[unit] for unit in after]
+
+        fleet.until(has_left, 600)
+        assert fleet.driver.collisions == 0 and fleet.traffic.watchdog.count == 0
 
 
 def inside(fleet, zone):

@@ -171,7 +171,7 @@ def test_a_robot_waits_for_a_broken_one_that_stands_where_it_has_to_go(begin):
     unit = unit_above(0)
     fleet.reports["failures"][0] = 1 << FailureKind.MOTOR
     assert fleet.controller.transports.submit(unit, STATION).accepted
-    for _ in range(700):
+    for _ in range(500):
         fleet.tick()
     traffic = fleet.controller.traffic
     assert traffic.robots.goal[1] == WHERE.units[unit]
@@ -179,6 +179,14 @@ def test_a_robot_waits_for_a_broken_one_that_stands_where_it_has_to_go(begin):
     waiting = Waiting(traffic, fleet.controller.transports.book)
     assert dict(waiting.long())[1] == "behind kiva1, which is broken"
     assert traffic.watchdog.count == 0
+    for _ in range(200):
+        fleet.tick()
+    text = f"unit {unit} is cut off by kiva1, broken or out of service"
+    assert [why for _, why in fleet.controller.transports.held()] == [text]
+    assert traffic.robots.goal[1] == NOWHERE
+    fleet.reports["failures"][0] = 0
+    fleet.tick()
+    assert fleet.step() > Step.OPEN and not fleet.controller.transports.held()
 
 
 def test_an_observation_that_is_late_is_stale(begin):

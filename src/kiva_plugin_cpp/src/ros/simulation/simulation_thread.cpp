@@ -160,8 +160,13 @@ void SimulationThread::reset(bool time_too) {
 void SimulationThread::pause(bool paused) {
   run([this, paused](kiva::World&) {
     if (paused_ != paused) startClocks();
+    held_ = false;  // by a node; who keeps a pause waiting is not measured
     paused_ = paused;
   });
+}
+
+void SimulationThread::awaitNode(const std::string& node, double until) {
+  pace_limit_.allow(node, until, WallClock::now());
 }
 
 void SimulationThread::limitPace(const std::string& node, double until) {

@@ -97,6 +97,8 @@ class SimulationThread {
   void pause(bool paused);
   /// Changes the step size and the pace (as in the constructor). For the step thread.
   void retime(double step_size, double rtf);
+  /// Does as limitPace(), before start().
+  void awaitNode(const std::string& node, double until);
   /// Has simulated time wait for a node: it passes `until` [s] only after another call for that
   /// node. Time that passes as fast as the wall clock, or slower, waits for no one, like step().
   void limitPace(const std::string& node, double until);

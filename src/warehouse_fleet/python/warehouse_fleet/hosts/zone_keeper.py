@@ -48,6 +48,7 @@ class ZoneKeeper:
     def __init__(self, host: Host) -> None:
         self._host = host
         self._events: deque[_Event] = deque(maxlen=EVENTS)
+        self._was_shut = False
         self._floor, self._time, self._zones, self._last = "", 0.0, list[ClosedZone](), 0
         self._restore(rospy.get_param(KEPT, None))
         self._topic = rospy.Publisher("warehouse/zones", ClosedZones, latch=True, queue_size=1)
@@ -89,8 +90,12 @@ class ZoneKeeper:
         self._time = time
         if controller.ended_zones:
             self._keep(controller, time)
-        elif is_due and len(controller.traffic.zones):
-            self._publish(controller)
+        elif is_due:
+            # Robots that stand for long have transports wait as well.
+            is_shut = bool(len(controller.traffic.zones) or controller.traffic.standing)
+            if is_shut or self._was_shut:
+                self._publish(controller)
+            self._was_shut = is_shut
 
     def _on_close(self, request: CloseZoneRequest) -> CloseZoneResponse:
         host = self._host

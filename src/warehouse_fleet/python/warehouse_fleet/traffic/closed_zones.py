@@ -8,9 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from warehouse_fleet.traffic.reach import NOWHERE, Reach
+from warehouse_fleet.robots.robot_table import NOWHERE
+from warehouse_fleet.traffic.reach import Reach
 from warehouse_fleet.traffic.station_ways import StationWays
-from warehouse_layout import Floor
+from warehouse_layout.floor.floor_edges import FloorEdges
 from warehouse_layout.floor.floor_plan import FloorPlan
 
 MOST = 50  # zones at a time
@@ -53,13 +54,18 @@ class ClosedZones:
     each change. Numbers of zones begin after `last`."""
 
     def __init__(
-        self, plan: FloorPlan, floor: Floor, apply: Callable[[np.ndarray], None], last: int = 0
+        self,
+        plan: FloorPlan,
+        edges: FloorEdges,
+        apply: Callable[[np.ndarray], None],
+        last: int = 0,
     ) -> None:
-        self._plan, self._floor, self._apply, self.last = plan, floor, apply, last
+        self._plan, self._floor_edges, self._apply = plan, edges, apply
+        self.last = last
         self._ways = StationWays(plan)
         self._zones: dict[int, ClosedZone] = {}
         self._reason_in: dict[int, str] = {}  # by cell
-        self._reach = Reach(plan, floor, self._ways, frozenset())
+        self._reach = Reach(plan, edges, self._ways, frozenset())
 
     def __iter__(self) -> Iterator[ClosedZone]:
         return iter(list(self._zones.values()))
@@ -205,7 +211,7 @@ class ClosedZones:
         self._apply(cells)
 
     def _reach_without(self, closed: Collection[int]) -> Reach:
-        return Reach(self._plan, self._floor, self._ways, frozenset(closed))
+        return Reach(self._plan, self._floor_edges, self._ways, frozenset(closed))
 
     def why_unit(self, unit: int, cell: int) -> str:
         """Returns why a unit that stands in a cell can't be fetched; empty if it can."""

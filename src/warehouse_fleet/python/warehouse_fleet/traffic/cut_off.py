@@ -5,16 +5,15 @@ broken down ahead of them."""
 import numpy as np
 
 from warehouse_fleet.robots.robot_table import NOWHERE
-from warehouse_layout import Floor
+from warehouse_layout.floor.floor_edges import FloorEdges
 
 
 class CutOff:
     """Looks for the obstacles that leave a robot no way to its goal. Answers are kept while the
     obstacles stay the same."""
 
-    def __init__(self, floor: Floor) -> None:
-        self._floor = floor
-        self._edges: dict[bool, np.ndarray] = {}  # by whether a robot is loaded; when asked
+    def __init__(self, edges: FloorEdges) -> None:
+        self._edges = edges
         self._closed = np.zeros(0, bool)
         self._known: dict[tuple[int, int, bool], np.ndarray] = {}
 
@@ -34,10 +33,10 @@ class CutOff:
         return self._known[key]
 
     def _look_from(self, cell: int, goal: int, loaded: bool) -> np.ndarray:
-        reached = self._reach(cell, loaded, self._closed)
+        reached = self._edges.reached_from(cell, loaded, self._closed)
         if self._ends_at(goal, reached):
             return np.zeros(0, np.int32)
-        ahead = np.unique(self._edges_of(loaded)[reached])
+        ahead = np.unique(self._edges.ahead(loaded)[reached])
         ahead = ahead[ahead != NOWHERE]
         ahead = ahead[self._closed[ahead]]
         alone = [obstacle for obstacle in ahead if self._cuts_alone(obstacle, cell, goal, loaded)]
@@ -47,30 +46,10 @@ class CutOff:
         """Returns whether a robot would come to its goal without that obstacle."""
         closed = self._closed.copy()
         closed[obstacle] = False
-        return self._ends_at(goal, self._reach(cell, loaded, closed))
+        return self._ends_at(goal, self._edges.reached_from(cell, loaded, closed))
 
     def _ends_at(self, goal: int, reached: np.ndarray) -> bool:
         """Returns whether a robot that comes to the cells `reached`, (cells,) bool, comes to its
         goal: loaded ones may enter a storage place there."""
-        beside = (self._edges_of(False) == goal).any(1)
+        beside = (self._edges.ahead(False) == goal).any(1)
         return bool(reached[goal] or (reached & beside).any())
-
-    def _reach(self, cell: int, loaded: bool, closed: np.ndarray) -> np.ndarray:
-        """Returns (cells,) bool: where a robot comes to from a cell while others, (cells,) bool,
-        are closed."""
-        edges = self._edges_of(loaded)
-        reached = np.zeros(len(edges), bool)
-        reached[cell] = True
-        front = np.array([cell])
-        while len(front):
-            ahead = np.unique(edges[front])
-            ahead = ahead[ahead != NOWHERE]
-            front = ahead[~reached[ahead] & ~closed[ahead]]
-            reached[front] = True
-        return reached
-
-    def _edges_of(self, loaded: bool) -> np.ndarray:
-        """Returns (cells, 4) int: the next cell towards each heading, or NOWHERE."""
-        if loaded not in self._edges:
-            self._edges[loaded] = np.asarray(self._floor.edges(loaded))
-        return self._edges[loaded]

@@ -40,6 +40,10 @@ class StationWays:
         """Returns whether obstacles in some cells keep robots from a station, or there."""
         return bool(cells) and station in self._of and self._of[station].are_barred(cells)
 
+    def bars(self, station: str, cells: AbstractSet[int]) -> AbstractSet[int]:
+        """Returns those of some cells with obstacles that keep robots from a station, or there."""
+        return self._of[station].barring(cells) if station in self._of else frozenset()
+
     def barring(self, cells: AbstractSet[int]) -> dict[int, int]:
         """Returns {service cell: one of some cells with obstacles that bars the way there}, of the
         stations to which or from which no way is open."""

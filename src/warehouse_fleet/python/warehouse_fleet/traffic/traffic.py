@@ -22,8 +22,10 @@ from warehouse_fleet.traffic.cut_off import CutOff
 from warehouse_fleet.traffic.elevators import Elevators, Move
 from warehouse_fleet.traffic.obstacles import ObstacleLog
 from warehouse_fleet.traffic.people import zone_around
+from warehouse_fleet.traffic.standing_robots import StandingRobots
 from warehouse_fleet.traffic.station_ways import StationWays, short_cuts
 from warehouse_fleet.traffic.watchdog import Watchdog
+from warehouse_layout.floor.floor_edges import FloorEdges
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.landings import Landings
 from warehouse_layout.floor.plan_reader import is_taken
@@ -115,11 +117,13 @@ class Traffic:
             self._after[station.cells[:-1]] = station.cells[1:]
         self._short_cuts = short_cuts(plan)
         self._ways = StationWays(plan)
-        self._cut_off = CutOff(self.floor)
+        edges = FloorEdges(self.floor)
+        self._cut_off = CutOff(edges)
         self._next_map = 0.0
         self.obstacles = ObstacleLog()
         self.people_zone = np.zeros(0, np.int32)  # cells where people are or are about to be
-        self.zones = ClosedZones(plan, self.floor, self._execution.set_closed_zone)
+        self.zones = ClosedZones(plan, edges, self._execution.set_closed_zone)
+        self.standing = StandingRobots(plan, edges, self.zones, self.robots, self._held)
         self._had_people = False
         self._fallen = 0  # items on the floor
 
@@ -166,6 +170,7 @@ class Traffic:
         if self.elevators:
             robots.rides = self.elevators.waits
         self.watchdog.update(time)
+        self.standing.update(time)
 
     def inherited(self, reports: Reports) -> np.ndarray:
         """Returns (n,) bool: robots that have been on paths since before this began."""
@@ -240,6 +245,12 @@ class Traffic:
         """Returns (n,) the cells to which robots drive now: goals, or elevators on the way."""
         return self.elevators.goals() if self.elevators else self.robots.goal
 
+    def _held(self) -> dict[int, int]:
+        """Returns the robot by the cell that no other may enter, as this one stands there."""
+        closed = self._execution.closed()
+        by = self._execution.holders(closed)
+        return dict(zip(closed[by != NOWHERE].tolist(), by[by != NOWHERE].tolist()))
+
     def holder(self, cell: int) -> int:
         """Returns the robot that a cell has been released to, or that stands there; or NOWHERE."""
         return self._execution.holder(int(cell))
@@ -276,8 +287,9 @@ class Traffic:
 
     @property
     def is_cut(self) -> np.ndarray:
-        """(cells,) bool: in closed zones, or cut off by them."""
-        return self.zones.is_cut
+        """(cells,) bool: in closed zones, held by robots that stand there for long, or cut off by
+        either."""
+        return self.standing.is_cut
 
     @property
     def wants_map(self) -> bool:

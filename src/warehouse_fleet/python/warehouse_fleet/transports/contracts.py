@@ -24,7 +24,8 @@ class Roads(Protocol):
 
     @property
     def is_cut(self) -> np.ndarray:
-        """(cells,) bool: in closed zones, or cut off by them."""
+        """(cells,) bool: in closed zones, held by robots that stand there for long, or cut off by
+        either."""
 
     def set_units(self, cells: Sequence[int]) -> None:
         """Closes cells for loaded robots."""

@@ -52,11 +52,10 @@ class Storing:
         """Returns the free storage places that robots can reach now; where there are none, those
         that they can reach later."""
         taken = self.taken()
-        later = self._places[~taken[self._places]]
-        taken[self._roads.closed] = True
-        taken |= self._roads.is_cut
-        free = self._places[~taken[self._places]]
-        return free if len(free) else later
+        barred = taken | self._roads.is_cut
+        barred[self._roads.closed] = True
+        free = self._places[~barred[self._places]]
+        return free if len(free) else self._places[~taken[self._places]]
 
     def is_place(self, cell: int) -> bool:
         """Returns whether a cell is a storage place."""

@@ -113,7 +113,15 @@ class Transports(TransportRequests):
         self._admission = Admission(book, robots, lifts, streets, capacity)
         ground = plan.passable & ~plan.storage & ~plan.parking & ~plan.lane
         self._evacuation = Evacuation(
-            traffic.zones, ground.ravel(), self.aside, self.distances, book, robots, units, storing
+            traffic.zones,
+            traffic.standing,
+            ground.ravel(),
+            self.aside,
+            self.distances,
+            book,
+            robots,
+            units,
+            storing,
         )
         unfit = UnfitUnits(book, robots)
         self._rejection = Rejection(book, robots, unfit, completion)
@@ -234,7 +242,8 @@ class Transports(TransportRequests):
         self._streets.update()
 
     def held(self) -> list[tuple[Transport, str]]:
-        """Returns the transports that wait for a closed zone, each with the reason."""
+        """Returns the transports that wait for a closed zone, or for robots that stand for long,
+        each with the reason."""
         rows = [(transport, self._evacuation.why(transport)) for transport in self.book.open]
         return [(transport, why) for transport, why in rows if why]
 

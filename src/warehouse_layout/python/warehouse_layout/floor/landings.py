@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from warehouse_layout._core import FloorError, layout_faults
+from warehouse_layout.floor.floor_edges import FloorEdges
 
 if TYPE_CHECKING:
     from warehouse_layout.floor.floor_plan import FloorPlan
-
-HEADINGS = 4
 
 
 class Landings:
@@ -27,7 +26,8 @@ class Landings:
 
     def __init__(self, plan: "FloorPlan") -> None:
         self._plan = plan
-        self._ahead = np.asarray(plan.floor().edges(True)).reshape(-1, HEADINGS)
+        self._edges = FloorEdges(plan.floor())
+        self._ahead = self._edges.ahead(True)
         streets = plan.passable & ~plan.storage & ~plan.parking & ~plan.lane
         self._is_street = streets.ravel()
         self.cells = [cell for elevator in plan.elevators for cell in elevator.cells]
@@ -41,7 +41,7 @@ class Landings:
 
     def _before(self, cell: int) -> list[int]:
         """Returns the street cells from which a robot drives to a cell."""
-        before = np.flatnonzero((self._ahead == cell).any(1))
+        before = self._edges.before(cell, True)
         return before[self._is_street[before]].tolist()
 
     def _approach(self, landing: int) -> dict[int, int]:
@@ -65,7 +65,7 @@ class Landings:
             for cell in self._ahead[queue.popleft()].tolist():
                 if cell < 0 or cell in known or not self._is_street[cell] or cell in self.cells:
                     continue
-                if set(np.flatnonzero((self._ahead == cell).any(1)).tolist()) <= known:
+                if set(self._edges.before(cell, True).tolist()) <= known:
                     known.add(cell)
                     out.append(cell)
                     queue.append(cell)

@@ -61,23 +61,40 @@ class PileOn:
 
     def __init__(self, fast_lane: bool = True) -> None:
         self.fast_lane = fast_lane
+        # Of a station's last look, if in vain: the stock there, and the number of orders added.
+        self._in_vain: dict[WorkStation, tuple[Mapping[str, int], int]] = {}
 
     def choose(self, station: WorkStation, view: "View") -> Order | None:
         """Returns the order that a station gets, or None."""
         if self.fast_lane and station.free_slots == 1 and station.capacity > 1:
-            return self._best(station.stock_here(), view, complete=True)
-        return self._best(station.inbound_stock(), view) or _most_urgent(view)
+            return self._completed(station, view)
+        served = view.backlog.served_by(station.inbound_stock())
+        return self._best(served, view) or _most_urgent(view)
+
+    def _completed(self, station: WorkStation, view: "View") -> Order | None:
+        """Returns the order that the unit at a station completes at once, or None. Most looks are
+        in vain: the next one, at the same stock, needs to see only the orders added since."""
+        stock, backlog = station.stock_here(), view.backlog
+        last_stock, added = self._in_vain.get(station, (None, 0))
+        served = backlog.served_by(stock, added if last_stock == stock else 0)
+        order = self._best(served, view, complete=True)
+        if order is None:
+            self._in_vain[station] = stock, backlog.added
+        return order
 
     @staticmethod
-    def _best(stock: Mapping[str, int], view: "View", complete: bool = False) -> Order | None:
+    def _best(served: Mapping[Order, int], view: "View", complete: bool = False) -> Order | None:
         best: Order | None = None
-        best_score: tuple = ()
-        for order, served in view.backlog.served_by(stock).items():
-            missing = view.backlog.pieces[order] > served
+        best_score: tuple[int, bool, int] = (0, True, 0)
+        pieces = view.backlog.pieces
+        for order, its_pieces in served.items():
+            missing = pieces[order] > its_pieces
             if missing and complete:
                 continue
-            score = (-order.priority, missing, -served, order.urgency)
-            if best is not None and score > best_score:
+            score = -order.priority, missing, -its_pieces
+            if best is not None and (
+                score > best_score or (score == best_score and order.urgency > best.urgency)
+            ):
                 continue
             if not missing or view.in_stock(order):  # checked last: it costs most
                 best, best_score = order, score

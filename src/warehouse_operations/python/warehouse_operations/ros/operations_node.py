@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Orders and stock as a ROS node: a shift over the coordinator of a running warehouse."""
 
-import contextlib
 import threading
 from collections.abc import Callable
 from time import monotonic as clock
@@ -278,7 +277,7 @@ class OperationsNode:
         ):
             if rospy.is_shutdown():
                 raise rospy.ROSInterruptException("shut down before there was a warehouse")
-            _sleep_a_cycle()
+            rospy.rostime.wallsleep(CYCLE)  # fast time may stand, since it awaits this node
 
     def _is_coordinated(self) -> bool:
         state = self._coordinator.state
@@ -369,12 +368,6 @@ def publish_end(error: Exception) -> None:
     notices = _publisher("notices", msg.Notices)
     notices.publish(msg.Notices(notices=[f"no shift runs: {error}"]))
     sleep(FAREWELL)
-
-
-def _sleep_a_cycle() -> None:
-    # Time may go back meanwhile; the callers look at the time themselves.
-    with contextlib.suppress(rospy.ROSTimeMovedBackwardsException):
-        rospy.sleep(CYCLE)
 
 
 def _publisher(topic: str, kind: type) -> rospy.Publisher:

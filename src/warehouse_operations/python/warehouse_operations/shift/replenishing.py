@@ -73,8 +73,11 @@ class Replenishing:
             return
         self._look = False
         self._take_along()
+        if not self._goods_in.bundles:
+            return
         limit = -(-self._visits.most // 2)  # few visits, each with many bundles
-        coming = {s: n for s in self.stations if s.is_open and (n := _coming(s)) < limit}
+        coming = {s: s.refills_coming for s in self.stations if s.is_open}
+        coming = {station: count for station, count in coming.items() if count < limit}
         while self._goods_in.bundles and coming:
             station = min(coming, key=coming.__getitem__)
             if not self._fetch(station):
@@ -174,12 +177,14 @@ class Replenishing:
         """Adds a waiting bundle to a visit if its unit has a place for it, and returns whether it
         has: in a bin of its SKU, or in an empty one if the policy fills visits, or little is
         left."""
-        inventory, bins = self._inventory, self._inventory.of_unit[visit.unit]
-        places = [bin_ for bin_ in bins if inventory.takes(bin_, bundle.sku, bundle.quantity)]
-        same = [bin_ for bin_ in places if bin_.sku == bundle.sku]
+        inventory, sku = self._inventory, bundle.sku
+        # Most bins are of another SKU, and take nothing: they need no closer look.
+        bins = [b for b in inventory.of_unit[visit.unit] if b.sku == sku or b.empty]
+        places = [bin_ for bin_ in bins if inventory.takes(bin_, sku, bundle.quantity)]
+        same = [bin_ for bin_ in places if bin_.sku == sku]
         if same:
             self._place(bundle, min(same, key=lambda bin_: bin_.room), visit)
-        elif places and (self._fills or self._view.stock_of(bundle.sku) < bundle.quantity):
+        elif places and (self._fills or self._view.stock_of(sku) < bundle.quantity):
             self._place(bundle, places[0], visit)
         return bundle.bin is not None
 
@@ -268,7 +273,3 @@ class Replenishing:
             self._visits.release(visit)
             self._look = True
             self.next_bundle(station)
-
-
-def _coming(station: WorkStation) -> int:
-    return len(station.coming_for(replenishes=True))

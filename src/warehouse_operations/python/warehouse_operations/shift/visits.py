@@ -74,7 +74,7 @@ class Visits:
         visit.replenishes = replenishes
         self._by_transport[answer.transport_id] = visit
         self._away[unit] += 1
-        station.inbound[visit.visit_id] = visit
+        station.add_visit(visit)
         self._context.journal.visit(visit)
         return visit
 
@@ -90,17 +90,17 @@ class Visits:
         self._floor.cells.pop(visit.unit, None)
         self._by_transport[visit.transport_id] = visit
         self._away[visit.unit] += 1
-        visit.station.inbound[visit.visit_id] = visit
+        visit.station.add_visit(visit)
 
     def release(self, visit: Visit) -> None:
         """Lets the unit leave the station."""
-        visit.released = self._context.clock.now
+        visit.station.release(visit, self._context.clock.now)
         self._transports.release(visit.transport_id)
         self._context.journal.visit(visit)
 
     def cancel(self, visit: Visit) -> None:
         """Cancels the transport of a unit on its way."""
-        visit.released = self._context.clock.now
+        visit.station.release(visit, self._context.clock.now)
         self._transports.cancel(visit.transport_id)
 
     def update_units(self, units: set[int]) -> None:
@@ -179,8 +179,9 @@ class Visits:
         self._away[visit.unit] -= 1
         self._part_of(visit).drop_visit(visit)
         visit.ended, visit.outcome = event.stamp, visit.outcome or event.kind.name.lower()
-        visit.released = event.stamp if visit.released is None else visit.released
-        del visit.station.inbound[visit.visit_id]
+        if visit.released is None:
+            visit.station.release(visit, event.stamp)
+        visit.station.end_visit(visit)
         self._context.journal.visit(visit)
         self._context.tally.visited(visit)
         visit.station.visits += visit.arrived is not None

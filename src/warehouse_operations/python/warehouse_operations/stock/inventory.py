@@ -6,7 +6,7 @@ sum of its moves. Reserved pieces are promised to a pick; expected ones are on t
 """
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Mapping
 from enum import StrEnum
 from typing import Any
 
@@ -17,6 +17,7 @@ from warehouse_operations.goods.kinds import Goods
 
 ROOMY = 12  # pieces, of the largest bundle
 TOLERANCE = 1e-6  # of weights that fit on a unit
+STOCKS_KEPT = 4096  # units whose available pieces are kept, at most: those at stations, and more
 
 
 class Reason(StrEnum):
@@ -104,6 +105,8 @@ class Inventory:
         self._row = {bin_.bin_id: row for row, bin_ in enumerate(bins)}
         self._pieces = np.zeros(len(bins), np.int32)
         self._rows_of: dict[str, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
+        # Available pieces by SKU, of units that were asked for and have not changed since.
+        self._stock_on: dict[int, dict[str, int]] = {}
         self._incoming: dict[str, int] = defaultdict(int)
         self._on_move = on_move or (lambda *_: None)
         self.changed: set[Bin] = set()  # bins whose figures are not recorded yet
@@ -139,6 +142,23 @@ class Inventory:
     def with_sku(self, sku: str) -> Collection[Bin]:
         """Returns the bins in which pieces of a SKU lie."""
         return self._of_sku[sku].values()
+
+    def stock_on(self, unit: int) -> Mapping[str, int]:
+        """Returns the pieces on a unit promised to no order, by SKU; later changes give another
+        mapping."""
+        stock = self._stock_on.get(unit)
+        if stock is None:
+            if len(self._stock_on) >= STOCKS_KEPT:
+                self._stock_on.clear()
+            stock = self._stock_on[unit] = self._sum_up(unit)
+        return stock
+
+    def _sum_up(self, unit: int) -> dict[str, int]:
+        stock: dict[str, int] = {}
+        for bin_ in self.of_unit.get(unit, ()):
+            if bin_.available:
+                stock[bin_.sku] = stock.get(bin_.sku, 0) + bin_.available
+        return stock
 
     def by_unit(self, sku: str) -> tuple[np.ndarray, np.ndarray]:
         """Returns (units, pieces), (n,) each: the units with pieces of a SKU promised to no order,
@@ -244,8 +264,7 @@ class Inventory:
         bin_.quantity += quantity
         self.total += quantity
         self._add_weight(bin_, bin_.sku, quantity, there=True)
-        self._available[bin_.sku] += quantity
-        self._pieces[self._row[bin_.bin_id]] += quantity
+        self._add_available(bin_, quantity)
         self._index(bin_)
         self._measure(bin_)
         self.changed.add(bin_)
@@ -264,9 +283,13 @@ class Inventory:
                 f"{bin_.reserved} + {quantity} reserved of {bin_.quantity} in {bin_.item}"
             )
         bin_.reserved += quantity
-        self._available[bin_.sku] -= quantity
-        self._pieces[self._row[bin_.bin_id]] -= quantity
+        self._add_available(bin_, -quantity)
         self.changed.add(bin_)
+
+    def _add_available(self, bin_: Bin, quantity: int) -> None:
+        self._available[bin_.sku] += quantity
+        self._pieces[self._row[bin_.bin_id]] += quantity
+        self._stock_on.pop(bin_.unit, None)
 
     def pick(self, bin_: Bin, quantity: int, **context: Any) -> None:
         """Removes reserved pieces."""

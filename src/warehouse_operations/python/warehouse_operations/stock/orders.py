@@ -77,7 +77,8 @@ class Order:
 
 
 class Backlog:
-    """The orders without a station, by age, with their demand for pieces of each SKU."""
+    """The orders without a station, by age, with their demand for pieces of each SKU. `added`: the
+    number of orders added so far."""
 
     def __init__(self) -> None:
         self.orders: dict[int, Order] = {}  # by id
@@ -86,6 +87,9 @@ class Backlog:
         self.demand: dict[str, int] = defaultdict(int)  # pieces by SKU
         self._by_sku: dict[str, dict[Line, int]] = defaultdict(dict)  # open pieces by line
         self._urgencies: list[tuple[int, float, int]] = []  # of all of them, ascending
+        self.added = 0
+        self._numbers: dict[Order, int] = {}  # `added` at each
+        self._last_added: dict[str, int] = {}  # the same at the last with an open line of a SKU
 
     def __len__(self) -> int:
         return len(self.orders)
@@ -95,6 +99,8 @@ class Backlog:
 
     def add(self, order: Order) -> None:
         """Adds an order, with the demand of its open lines."""
+        self.added += 1
+        self._numbers[order] = self.added
         self.orders[order.order_id] = order
         self.pieces[order] = order.pieces
         bisect.insort(self._urgencies, order.urgency)
@@ -103,10 +109,11 @@ class Backlog:
             if line.open:
                 self.demand[line.sku] += line.open
                 self._by_sku[line.sku][line] = line.open
+                self._last_added[line.sku] = self.added
 
     def remove(self, order: Order) -> None:
         """Removes an order and its demand. Raises KeyError."""
-        del self.orders[order.order_id], self.pieces[order]
+        del self.orders[order.order_id], self.pieces[order], self._numbers[order]
         del self._urgencies[bisect.bisect_left(self._urgencies, order.urgency)]
         self.lines -= len(order.lines)
         for line in order.lines:
@@ -131,18 +138,23 @@ class Backlog:
         """Returns the lines of a SKU, by age of their orders, with their open pieces."""
         return self._by_sku.get(sku, {})
 
-    def served_by(self, stock: Mapping[str, int]) -> dict[Order, int]:
+    def served_by(self, stock: Mapping[str, int], since: int = 0) -> dict[Order, int]:
         """Returns the number of pieces in a stock for each order with any.
 
         stock: pieces by SKU, which count for each of two lines of an order with the same SKU.
+        since: only for orders added after this number of them.
         """
         served: dict[Order, int] = {}
+        numbers, last_added = self._numbers, self._last_added
         for sku, pieces in stock.items():
-            for line, open_pieces in self.lines_of(sku).items():
-                served_so_far = served.get(line.order, 0)
-                served[line.order] = served_so_far + (
-                    open_pieces if open_pieces < pieces else pieces
-                )
+            if last_added.get(sku, 0) <= since:
+                continue
+            for line, open_pieces in reversed(self._by_sku[sku].items()):  # the last added first
+                order = line.order
+                if numbers[order] <= since:
+                    break
+                served_so_far = served.get(order, 0)
+                served[order] = served_so_far + (open_pieces if open_pieces < pieces else pieces)
         return served
 
 

@@ -2,8 +2,8 @@
 """The stations of a shift, and the visits of units to them."""
 
 import math
-from collections import defaultdict, deque
-from collections.abc import Callable, Iterable
+from collections import deque
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -97,6 +97,8 @@ class WorkStation:
         self.orders: dict[int, Order] = {}  # by id
         self.totes = Totes(self.capacity)
         self.inbound: dict[int, Visit] = {}  # not over, by id, in the order of asking
+        self._coming: dict[int, Visit] = {}  # those of them that have not been released
+        self.refills_coming = 0  # of these, those for bundles
         self.at_work = 0  # pieces or bundles in hand
         self.reaching = 0  # of these, pieces still in their bins
         self.line: Line | None = None  # of the last piece begun
@@ -176,6 +178,23 @@ class WorkStation:
         del self.orders[order.order_id]
         self.totes.leave(order)
 
+    def add_visit(self, visit: Visit) -> None:
+        """Adds a visit that is under way."""
+        self.inbound[visit.visit_id] = visit
+        if visit.released is None:
+            self._coming[visit.visit_id] = visit
+            self.refills_coming += visit.replenishes
+
+    def release(self, visit: Visit, now: float) -> None:
+        """Notes that the unit of a visit may leave, or need not come, from a time on [s]."""
+        visit.released = now
+        if self._coming.pop(visit.visit_id, None):
+            self.refills_coming -= visit.replenishes
+
+    def end_visit(self, visit: Visit) -> None:
+        """Removes a visit that is over and was released. Raises KeyError."""
+        del self.inbound[visit.visit_id]
+
     @property
     def free_slots(self) -> int:
         """The number of free slots for orders."""
@@ -184,16 +203,19 @@ class WorkStation:
     @property
     def here(self) -> Visit | None:
         """The Visit in the service cell, or None."""
-        return next((visit for visit in self.inbound.values() if visit.here), None)
+        for visit in self._coming.values():
+            if visit.arrived is not None:
+                return visit
+        return None
 
     @property
     def coming(self) -> list[Visit]:
         """The visits that have not been released."""
-        return [visit for visit in self.inbound.values() if visit.released is None]
+        return list(self._coming.values())
 
     def coming_for(self, replenishes: bool) -> list[Visit]:
         """Returns those of them for bundles, or for orders."""
-        return [visit for visit in self.coming if visit.replenishes == replenishes]
+        return [visit for visit in self._coming.values() if visit.replenishes == replenishes]
 
     def seconds_to_pick(self) -> float:
         """Returns how long its pickers work on what is reserved on those units [s]; infinite in a
@@ -212,19 +234,15 @@ class WorkStation:
             return 0.0
         return max(0.0, now - max(visit.arrived, self.attended))
 
-    def stock_here(self) -> dict[str, int]:
+    def stock_here(self) -> Mapping[str, int]:
         """Returns the pieces promised to no order, by SKU, on the unit in the service cell."""
         visit = self.here
-        return self._stock([visit] if visit and not visit.replenishes else [])
+        return self.inventory.stock_on(visit.unit) if visit and not visit.replenishes else {}
 
-    def inbound_stock(self) -> dict[str, int]:
+    def inbound_stock(self) -> Mapping[str, int]:
         """Returns the same for the unit here and those on their way."""
-        return self._stock(self.coming_for(replenishes=False))
-
-    def _stock(self, visits: Iterable[Visit]) -> dict[str, int]:
-        stock: dict[str, int] = defaultdict(int)
-        for visit in visits:
-            for bin_ in self.inventory.of_unit[visit.unit]:
-                if bin_.available:
-                    stock[bin_.sku] += bin_.available
+        stock: dict[str, int] = {}
+        for visit in self.coming_for(replenishes=False):
+            for sku, pieces in self.inventory.stock_on(visit.unit).items():
+                stock[sku] = stock.get(sku, 0) + pieces
         return stock

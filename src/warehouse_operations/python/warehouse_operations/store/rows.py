@@ -25,6 +25,7 @@ TABLES = (  # in the order in which rows may refer to each other
     schema.heat,
     schema.report,
 )
+PLAIN = frozenset((int, float, str, bool, bytes, type(None)))  # types of most values
 
 
 class Rows:
@@ -46,8 +47,11 @@ class Rows:
 
     def update(self, table: Table, key: Any, **values: Any) -> None:
         """Changes values by column of a row, pending or existing."""
+        self._update(table, key, _without_numpy(values))
+
+    def _update(self, table: Table, key: Any, values: dict[str, Any]) -> None:
         known = self.inserts[table] if key in self.inserts.get(table, ()) else self.updates[table]
-        known.setdefault(key, {}).update(_without_numpy(values))
+        known.setdefault(key, {}).update(values)
 
     def merge(self, later: "Rows") -> None:
         """Adds later rows and changes to these."""
@@ -55,7 +59,7 @@ class Rows:
             self.inserts[table].update(rows)
         for table, rows in later.updates.items():
             for key, values in rows.items():
-                self.update(table, key, **values)
+                self._update(table, key, values)
 
     def write(self, connection: Connection) -> None:
         """Writes all rows in the transaction of a connection."""
@@ -80,6 +84,8 @@ class Rows:
 
 def _without_numpy(values: dict[str, Any]) -> dict[str, Any]:
     """Replaces numpy's types in place, which psycopg2 writes as numpy 2 shows them."""
+    if PLAIN.issuperset(map(type, values.values())):
+        return values
     for name, value in values.items():
         if isinstance(value, np.generic):
             values[name] = value.item()
