@@ -109,10 +109,7 @@ void lookAhead(RobotView& world, Scans& scans, const std::vector<int>& robots) {
 std::vector<int> beginners(const Scene& world) {
   const FleetState& f = world.fleet;
   std::vector<int> out;
-  const std::vector<int>& singly = world.schedule.stepped_singly;
-  for (std::size_t k = 0; k < singly.size(); ++k) {
-    fetchTasksAhead(f, singly, k);
-    const int i = singly[k];
+  for (int i : world.schedule.stepped_singly) {
     const bool begins = isOnGuard(f, i) && !f.tasks[i].sighting.taken;
     if (begins || (looksAlongArc(f, i) && f.steering(i).looks)) out.push_back(i);
   }
