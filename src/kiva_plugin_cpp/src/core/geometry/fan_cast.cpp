@@ -190,6 +190,12 @@ class RayTargets {
     return sector_.mayHold(middle.x, middle.y, radius);
   }
 
+  template <typename Spot>
+  bool mayMeet(const Spot& spot) const {
+    return spot.isAt({from_.z, from_.z}) &&
+           mayMeet(seenFrom(from_, spot.x, spot.y, 1, 0), spot.radius);
+  }
+
   /// Adds what a robot's outline hides, if rays meet it, unless the laser is near or inside: then
   /// returns false. `middle`: the robot relative to the laser; poseOf(outline): the outline.
   template <typename Outline, typename PoseOf>
@@ -292,13 +298,15 @@ void Obstacles::cast(const RayFan& fan, const Sensor& from, const FanReach& reac
     } else if (const Footprint& f = entries_[handle].footprint; group < 0 || f.group != group) {
       targets.add(f, seenFrom(from, f.x, f.y, f.c, f.s));
     }
-    return false;
   };
   const AxisBox area = targets.area();
   // The few cells of a look along the robot's lane are quicker to read than the levels of boxes.
   const CellRange cells = range({area.min_x, area.max_x, area.min_y, area.max_y});
   if ((cells.x1 - cells.x0 + 1) * (cells.y1 - cells.y0 + 1) <= kFewCells) {
-    anyHandle(cells, cells, add);
+    anyHandle(cells, cells, [&](int handle) {
+      if (handle < 0 || targets.mayMeet(spots_[handle])) add(handle);
+      return false;
+    });
   } else {
     LooseGrid::Handles handles;
     boxes_.find(area, &handles);

@@ -285,6 +285,8 @@ void Obstacles::setFootprint(int handle, const Footprint& f) {
   spot.y = static_cast<float>(f.y);
   const double margin = kSpotMargin + kFloatMargin * (std::abs(f.x) + std::abs(f.y));
   spot.radius = static_cast<float>(radiusOf(f) + margin);
+  spot.z_min = -above(-f.z_min);
+  spot.z_max = above(f.z_max);
   const Box b = boxOf(f);
   boxes_.put(handle, rounded(b.min_x, b.max_x, b.min_y, b.max_y, f.z_min, f.z_max));
 }

@@ -27,6 +27,11 @@ inline bool mayBeWithin(double distance, const Footprint& a, const Footprint& b)
   return reach > 0 && dx * dx + dy * dy < reach * reach;
 }
 
+/// A range of heights, both included [m].
+struct Heights {
+  double low = 0, high = 0;
+};
+
 struct RayHit {
   double range = 0;  ///< [m]; +inf = nothing
   int model = -1;
@@ -100,18 +105,19 @@ class Obstacles {
     });
   }
 
-  /// Does the same for entries with a point in the circle of radius `reach` around (x, y), and for
-  /// movers whose circle has a point in that of radius `mover_reach`.
+  /// Does the same for entries with a point at these heights in the circle of radius `reach` around
+  /// (x, y), and for movers whose circle has a point in that of radius `mover_reach`.
   template <typename Meets, typename Approaches>
-  bool anyAround(double x, double y, double reach, double mover_reach, Meets meets,
-                 Approaches approaches) const {
+  bool anyAround(double x, double y, const Heights& heights, double reach, double mover_reach,
+                 Meets meets, Approaches approaches) const {
     const auto moves = [&](int robot) {
       const double dx = fleet_.x[robot] - x, dy = fleet_.y[robot] - y;
       const double most = mover_reach + radius_[robot];
       return dx * dx + dy * dy < most * most && approaches(robot, radius_[robot]);
     };
     const auto stands = [&](int handle) {
-      return spots_[handle].isWithin(reach, x, y) && meets(entries_[handle].footprint);
+      const Spot& spot = spots_[handle];
+      return spot.isAt(heights) && spot.isWithin(reach, x, y) && meets(entries_[handle].footprint);
     };
     const auto ask = [&](int handle) { return handle < 0 ? moves(~handle) : stands(handle); };
     const CellRange near = range({x - reach, x + reach, y - reach, y + reach});
@@ -160,11 +166,16 @@ class Obstacles {
   struct Corner {  // first cell of a CellRange
     std::int16_t x0 = 0, y0 = 0;
   };
-  /// A circle around an entry. Most obstacles near a robot are ruled out by it, without a look at
-  /// their footprints.
+  /// A cylinder around an entry. Most obstacles near a robot are ruled out by it, without a look at
+  /// their footprints, which are all over the memory.
   struct Spot {
     Corner corner;
     float x = 0, y = 0, radius = 0;  // circle that contains it [m]
+    float z_min = 0, z_max = 0;      // heights that contain its own [m]
+
+    bool isAt(const Heights& heights) const {
+      return z_min <= heights.high && heights.low <= z_max;
+    }
 
     bool isWithin(double reach, double from_x, double from_y) const {
       const double dx = x - from_x, dy = y - from_y, most = reach + radius;
@@ -191,25 +202,57 @@ class Obstacles {
     mutable double world_x = 0, world_y = 0, world_yaw = 0;  // pose at which `world` was computed
   };
 
+  /// A handle in the list of a cell.
+  struct Listed {
+    int handle;
+    std::int16_t x, y;
+  };
+
   /// Returns whether ask(handle) is true for any mover indexed in a cell of `far`, or any entry in
-  /// one of `near`; each is asked once.
+  /// one of `near`; each is asked once. What is read of each comes from all over the memory: it is
+  /// asked for together, and arrives together.
   template <typename Ask>
   bool anyHandle(const CellRange& near, const CellRange& far, Ask ask) const {
-    for (int cy = far.y0; cy <= far.y1; ++cy) {
-      for (int cx = far.x0; cx <= far.x1; ++cx) {
-        const bool is_near = near.holds(cx, cy);
-        for (int handle : cells_[cell(cx, cy)]) {
-          if (handle >= 0 && !is_near) break;  // all further ones are entries as well
-          // Asked in the first of its cells within the range.
-          const Corner own = handle >= 0 ? spots_[handle].corner : mover_corner_[~handle];
-          const CellRange& r = handle >= 0 ? near : far;
-          const bool is_first =
-              cx == std::max<int>(own.x0, r.x0) && cy == std::max<int>(own.y0, r.y0);
-          if (is_first && ask(handle)) return true;
-        }
-      }
+    boost::container::small_vector<Listed, 64> listed;
+    list(near, far, &listed);
+    for (const Listed& each : listed) {
+      const int handle = each.handle;
+      // Asked in the first of its cells within the range.
+      const Corner own = handle >= 0 ? spots_[handle].corner : mover_corner_[~handle];
+      const CellRange& r = handle >= 0 ? near : far;
+      const bool is_first =
+          each.x == std::max<int>(own.x0, r.x0) && each.y == std::max<int>(own.y0, r.y0);
+      if (is_first && ask(handle)) return true;
     }
     return std::any_of(everywhere_.begin(), everywhere_.end(), ask);
+  }
+
+  /// Lists the movers in the cells of `far`, and the entries in those of `near`.
+  template <typename Handles>
+  void list(const CellRange& near, const CellRange& far, Handles* out) const {
+    forEachCell(far, [&](int cx, int cy) { __builtin_prefetch(&cells_[cell(cx, cy)]); });
+    forEachCell(far, [&](int cx, int cy) { __builtin_prefetch(cells_[cell(cx, cy)].data()); });
+    forEachCell(far, [&](int cx, int cy) {
+      const bool is_near = near.holds(cx, cy);
+      for (const int handle : cells_[cell(cx, cy)]) {
+        if (handle >= 0 && !is_near) break;  // all further ones are entries as well
+        out->push_back({handle, static_cast<std::int16_t>(cx), static_cast<std::int16_t>(cy)});
+        fetch(handle);
+      }
+    });
+  }
+  template <typename Visit>
+  static void forEachCell(const CellRange& cells, Visit visit) {
+    for (int cy = cells.y0; cy <= cells.y1; ++cy) {
+      for (int cx = cells.x0; cx <= cells.x1; ++cx) visit(cx, cy);
+    }
+  }
+  void fetch(int handle) const {
+    if (handle >= 0) return __builtin_prefetch(&spots_[handle]);
+    __builtin_prefetch(&mover_corner_[~handle]);
+    __builtin_prefetch(&radius_[~handle]);
+    __builtin_prefetch(&fleet_.x[~handle]);
+    __builtin_prefetch(&fleet_.y[~handle]);
   }
 
   static Box boxOf(const Footprint& footprint);

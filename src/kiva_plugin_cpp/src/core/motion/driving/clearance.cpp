@@ -136,8 +136,8 @@ bool isClear(const Scene& world, int robot, const Footprint& swept, double time)
   const double walk = world.people.walkers.empty() ? 0 : kMostWalkingSpeed * time;
   const double drive = std::max((world.fleet.fastest + kPushed) * time, walk);
   const double reach = radiusOf(swept) + kNear;
-  return !world.obstacles.anyAround(swept.x, swept.y, reach + walk, reach + drive, meets,
-                                    approaches);
+  return !world.obstacles.anyAround(swept.x, swept.y, {lifted.z_min, lifted.z_max}, reach + walk,
+                                    reach + drive, meets, approaches);
 }
 
 /// Returns the part of the horizon in which a cruising robot stays within the slack of its obstacle

@@ -73,21 +73,25 @@ class BusyFloor {
 
   void look() {
     const double x = within(kEdge), y = within(kEdge), reach = within(1), far = reach + within(2);
+    const double low = within(2);
+    const Heights heights{low, low + within(1)};
     std::map<const Footprint*, int> things;
     std::map<int, int> robots;
     const auto meets = [&](const Footprint& thing) { return ++things[&thing] == 0; };
     const auto approaches = [&](int robot, double) { return ++robots[robot] == 0; };
-    EXPECT_FALSE(obstacles_.anyAround(x, y, reach, far, meets, approaches));
+    EXPECT_FALSE(obstacles_.anyAround(x, y, heights, reach, far, meets, approaches));
     for (const int thing : things_) {
       const Footprint& f = obstacles_[thing];
       const bool is_within = std::hypot(f.x - x, f.y - y) < reach + radiusOf(f);
-      const bool touches = is_within && boxIsNear(f, x, y, reach);
+      const bool is_at = f.z_min <= heights.high && heights.low <= f.z_max;
+      const bool touches = is_at && is_within && boxIsNear(f, x, y, reach);
       const int asked = things[&f];
       EXPECT_LE(asked, 1);
       if (touches) {
         EXPECT_EQ(asked, 1);
       } else if (asked) {
         EXPECT_LE(distance(f, x, y), reach + kMargin);
+        EXPECT_TRUE(is_at);
       }
     }
     for (std::size_t i = 0; i < fleet_.x.size(); ++i) {
