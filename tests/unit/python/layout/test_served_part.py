@@ -6,8 +6,10 @@ import pytest
 
 from warehouse_fleet.robots.robot_table import RobotTable
 from warehouse_fleet.traffic.closed_zones import ClosedZones
+from warehouse_fleet.traffic.standing_robots import StandingRobots
 from warehouse_fleet.transports.transports import Transports
 from warehouse_layout import FloorError
+from warehouse_layout.floor.floor_edges import FloorEdges
 from warehouse_layout.floor.floor_plan import PICK, FloorPlan, Station
 from warehouse_layout.floor.served_part import served_part
 
@@ -82,7 +84,9 @@ class Parked:
     def __init__(self, plan):
         self.plan, self.time = plan, 0.0
         self.robots = RobotTable([])
-        self.zones = ClosedZones(plan, plan.floor(), lambda cells: None)
+        edges = FloorEdges(plan.floor())
+        self.zones = ClosedZones(plan, edges, lambda cells: None)
+        self.standing = StandingRobots(plan, edges, self.zones, self.robots, dict)
 
     def set_units(self, cells):
         pass
