@@ -24,8 +24,10 @@ PATIENCE = 60.0  # [s, wall]
 COORDINATOR = "/coordinator"
 
 
-def time_of(pace):
-    return pace.stamp.to_sec()
+def decided(paces):
+    """Returns the times of decisions [s]. The node that built the warehouse has released time: its
+    last message, without a look-ahead, is latched and comes at any moment."""
+    return [pace.stamp.to_sec() for pace in paces if pace.lookahead]
 
 
 class Waiting(unittest.TestCase):
@@ -52,14 +54,12 @@ class Waiting(unittest.TestCase):
 
     def test_a_no_decision_of_the_coordinator_is_late(self):
         self.paces.clear()
-        decisions = self.paces.wait_for(
-            lambda paces: paces and time_of(paces[-1]) > time_of(paces[0]) + 60, PATIENCE
+        record = self.paces.wait_for(
+            lambda paces: (times := decided(paces)) and times[-1] > times[0] + 60, PATIENCE
         )
-        times = [time_of(pace) for pace in decisions]
+        times = decided(record)
         apart = [after - before for before, after in zip(times, times[1:])]
-        # Where this test gets no processor for half a second, rospy drops what waits for it: a gap.
-        late = [gap for gap in apart if gap > AHEAD + REPORT + 1e-6]
-        self.assertLess(len(late), len(apart) / 100, late)
+        self.assertLessEqual(max(apart), AHEAD + REPORT + 1e-6)
 
     def test_b_time_stands_where_a_node_has_let_it_go(self):
         keeper = PaceKeeper(LOOKAHEAD)

@@ -63,7 +63,7 @@ class Plugins(unittest.TestCase):
             truth.first(lambda m: m.twist.twist.linear.z < -1)
         pusher.unregister()
 
-    def told(self, log, name, text):
+    def warning_of(self, log, name, text):
         """The warning about the plugin of that name that has that text."""
         record = log.first(lambda m: f"'{name}'" in m.msg and text in m.msg)
         self.assertEqual(record.level, Log.WARN)
@@ -73,9 +73,9 @@ class Plugins(unittest.TestCase):
         xml = (ROBOTS / "controllers.urdf").read_text()
         log = world_log()
         call("/gazebo/spawn_urdf_model", SpawnModel, "weight", xml, "", pose(), "")
-        control = self.told(log, "gazebo_ros_control", "libgazebo_ros_diff_drive.so")
+        control = self.warning_of(log, "gazebo_ros_control", "libgazebo_ros_diff_drive.so")
         self.assertIn("'weight'", control)
-        self.told(log, "camera_controller", "nothing is rendered here")
+        self.warning_of(log, "camera_controller", "nothing is rendered here")
         self.assertTrue(state("weight").success)
 
     def test_a_faulty_parameter_costs_its_plugin_and_is_told(self):
@@ -103,7 +103,7 @@ class Plugins(unittest.TestCase):
             name = f"p{number}"
             log = world_log()
             self.spawn((name, plugin, parameters))
-            message = self.told(log, name, text)
+            message = self.warning_of(log, name, text)
             self.assertIn("the plugin is left out", message)
             self.assertTrue(state("weight").success)
             delete("weight")
@@ -116,7 +116,7 @@ class Plugins(unittest.TestCase):
         sensor = camera % (PLUGIN % ("eye_plugin", "depth_camera", ""))
         log = world_log()
         self.spawn(sensors=sensor)
-        message = self.told(log, "eye_plugin", "everyNthPixel")
+        message = self.warning_of(log, "eye_plugin", "everyNthPixel")
         self.assertIn("20000 x 20000", message)
 
 

@@ -157,7 +157,7 @@ class Spawning(unittest.TestCase):
 
     def test_a_plugin_that_nobody_knows_is_one_warning_that_names_it(self):
         log = world_log()
-        # A name of its own: it is told once.
+        # The world warns of each unknown plugin once: this test uses one that no other does.
         spawn_rover(URDF.replace("teapot", "kettle"))
         warning = log.first(lambda m: "libgazebo_ros_kettle.so" in m.msg)
         self.assertEqual(warning.level, Log.WARN)

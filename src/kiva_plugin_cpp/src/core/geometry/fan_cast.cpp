@@ -186,10 +186,12 @@ class RayTargets {
       : fan_(fan), from_(from), reach_(reach), sector_(fan, reach) {}
 
   AxisBox area() const { return sector_.boxFrom(from_); }
+  /// Returns whether rays may meet a circle around a place relative to the laser.
   bool mayMeet(const FlatPose& middle, double radius) const {
     return sector_.mayHold(middle.x, middle.y, radius);
   }
 
+  /// Does the same for the cylinder around an entry.
   template <typename Spot>
   bool mayMeet(const Spot& spot) const {
     return spot.isAt({from_.z, from_.z}) &&

@@ -237,7 +237,7 @@ class Obstacles {
       for (const int handle : cells_[cell(cx, cy)]) {
         if (handle >= 0 && !is_near) break;  // all further ones are entries as well
         out->push_back({handle, static_cast<std::int16_t>(cx), static_cast<std::int16_t>(cy)});
-        fetch(handle);
+        prefetchSpot(handle);
       }
     });
   }
@@ -247,7 +247,7 @@ class Obstacles {
       for (int cx = cells.x0; cx <= cells.x1; ++cx) visit(cx, cy);
     }
   }
-  void fetch(int handle) const {
+  void prefetchSpot(int handle) const {
     if (handle >= 0) return __builtin_prefetch(&spots_[handle]);
     __builtin_prefetch(&mover_corner_[~handle]);
     __builtin_prefetch(&radius_[~handle]);

@@ -51,5 +51,4 @@ class CutOff:
     def _ends_at(self, goal: int, reached: np.ndarray) -> bool:
         """Returns whether a robot that comes to the cells `reached`, (cells,) bool, comes to its
         goal: loaded ones may enter a storage place there."""
-        beside = (self._edges.ahead(False) == goal).any(1)
-        return bool(reached[goal] or (reached & beside).any())
+        return bool(reached[goal] or reached[self._edges.before(goal, False)].any())

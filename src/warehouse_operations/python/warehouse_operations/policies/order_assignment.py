@@ -61,7 +61,7 @@ class PileOn:
 
     def __init__(self, fast_lane: bool = True) -> None:
         self.fast_lane = fast_lane
-        # Of a station's last look, if in vain: the stock there, and the number of orders added.
+        # By station whose last look found no order: the stock it looked at, and `Backlog.added`.
         self._in_vain: dict[WorkStation, tuple[Mapping[str, int], int]] = {}
 
     def choose(self, station: WorkStation, view: "View") -> Order | None:

@@ -169,16 +169,16 @@ class Inventory:
         if not len(units):
             return units, units
         pieces = np.add.reduceat(self._pieces[rows], begins)
-        some = (pieces > 0) & self._is_first(sku, units)
+        some = pieces > 0
+        if first := self._to_empty(sku):
+            some &= np.isin(units, first)
         return units[some], pieces[some]
 
-    def _is_first(self, sku: str, units: np.ndarray) -> np.ndarray:
-        """Returns (n,) bool: which of some units pieces of a SKU are to be picked from. A bin that
-        another SKU gets once it is empty comes first: it might lie there as others are topped
-        up."""
+    def _to_empty(self, sku: str) -> list[int]:
+        """Returns the units with pieces of a SKU in a bin that another SKU gets once it is empty.
+        Picks come from these first: from others, which are topped up, they might never."""
         bins = [bin_ for heir in self._heirs if (bin_ := self.bins[heir]).sku == sku]
-        first = [bin_.unit for bin_ in bins if bin_.available > 0]
-        return np.isin(units, first) if first else np.ones(len(units), bool)
+        return [bin_.unit for bin_ in bins if bin_.available > 0]
 
     def _sorted_rows(self, sku: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         bins = self._of_sku[sku].values()

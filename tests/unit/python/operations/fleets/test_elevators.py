@@ -60,7 +60,7 @@ def run(driver, is_over, deadline=DEADLINE):
 
 
 def arrivals(count):
-    """Returns a condition on events: that so many units have arrived at their destinations."""
+    """Returns a function that tells whether `count` units have arrived, by a list of events."""
     return lambda events: sum(event.kind == Kind.ARRIVED for event in events) >= count
 
 
