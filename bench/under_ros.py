@@ -6,6 +6,7 @@ import contextlib
 import json
 import os
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -30,6 +31,8 @@ from warehouse_sim.tracker import topics_allowed
 PATIENCE = 120  # [s]
 TICK = os.sysconf("SC_CLK_TCK")
 NODE = "kiva_world_node"
+SETTLED = 0.005  # of its memory
+SETTLING = 8.0  # for how long memory is as steady as that [s]
 
 
 class Session:
@@ -158,12 +161,29 @@ class Session:
         return out
 
     def memory(self):
-        """Returns the memory of all nodes [MB]; shared pages count once."""
-        return sum(memory_of(pid) for pid in self.nodes()) / 1e3
+        """Returns the memory of each node [MB], by program name; shared pages count once."""
+        out = collections.Counter()
+        for pid, name in self.nodes().items():
+            out[name] += memory_of(pid) / 1e3
+        return out
 
-    def node_memory(self):
-        """Returns the memory of the world's node [MB]."""
-        return sum(memory_of(p) for p, name in self.nodes().items() if name == NODE) / 1e3
+    def recording(self):
+        """Returns how much of the viewer's memory is its recording of the last hour [MB]."""
+        with urllib.request.urlopen(f"http://localhost:{self._page}/metrics") as answer:
+            found = re.search(r"^warehouse_recording_bytes (\S+)", answer.read().decode(), re.M)
+        return float(found[1]) / 1e6
+
+    def settled_memory(self, patience=60):
+        """Returns memory() once its sum is steady: a world returns free memory some seconds after
+        it was built."""
+        last, end = self.memory(), time.monotonic() + patience
+        steady_since = time.monotonic()
+        while time.monotonic() < min(end, steady_since + SETTLING):
+            time.sleep(1)
+            memory = self.memory()
+            if abs(memory.total() - last.total()) > SETTLED * last.total():
+                last, steady_since = memory, time.monotonic()
+        return self.memory()
 
     def cpu(self):
         """CPU seconds by program name."""
@@ -216,7 +236,7 @@ def client(session, seconds, *options):
     out = programs.figures(command, seconds + 300)[0]
     took, after = time.monotonic() - begin, session.cpu()
     out["cores"] = {name: (used - before.get(name, 0)) / took for name, used in after.items()}
-    out["memory_mb"] = session.memory()
+    out["memory_mb"] = session.memory().total()
     return out | {"seconds": seconds}
 
 
@@ -225,8 +245,15 @@ def listening(seconds):
     with Session(size="empty", rtf=1) as session:
         out = {"create_s": session.create("huge")}
         out["topics_s"] = session.item_topics_stand()
-        before = session.memory()
-        return out | client(session, seconds) | {"memory_before_mb": before}
+        before, recorded = session.settled_memory(), session.recording()
+        out |= client(session, seconds)
+        after = session.memory()
+        for name in sorted(after):
+            programs.say(f"  {name}: {before[name]:.0f} MB before, {after[name]:.0f} afterwards")
+        return out | {
+            "memory_before_mb": before.total(),
+            "recording_mb": [recorded, session.recording()],
+        }
 
 
 def unheard(seconds):
@@ -252,5 +279,5 @@ def working(minutes):
             "rtf": simulated / took,
             "delivered": session.delivered() - delivered,
             "cores": cores,
-            "memory_mb": session.memory(),
+            "memory_mb": session.memory().total(),
         }
