@@ -31,6 +31,7 @@ from warehouse_sim.tracker import topics_allowed
 PATIENCE = 120  # [s]
 TICK = os.sysconf("SC_CLK_TCK")
 NODE = "kiva_world_node"
+CONNECTED = 60.0  # after its start a client's connections, and all queues, are there [s]
 SETTLED = 0.005  # of its memory
 SETTLING = 8.0  # for how long memory is as steady as that [s]
 
@@ -170,8 +171,8 @@ class Session:
     def recording(self):
         """Returns how much of the viewer's memory is its recording of the last hour [MB]."""
         with urllib.request.urlopen(f"http://localhost:{self._page}/metrics") as answer:
-            found = re.search(r"^warehouse_recording_bytes (\S+)", answer.read().decode(), re.M)
-        return float(found[1]) / 1e6
+            row = re.search(r"^warehouse_recording_bytes (\S+)", answer.read().decode(), re.M)
+        return float(row[1]) / 1e6
 
     def settled_memory(self, patience=60):
         """Returns memory() once its sum is steady: a world returns free memory some seconds after
@@ -228,6 +229,14 @@ def _cpu(pid):
     return 0.0
 
 
+class Look:
+    """The memory of each node now, or once it is steady, and of the viewer's recording [MB]."""
+
+    def __init__(self, session, settled=False):
+        self.memory = session.settled_memory() if settled else session.memory()
+        self.recording = session.recording()
+
+
 def client(session, seconds, *options):
     """What one client of the whole fleet gets, and each program's share of a core meanwhile."""
     before, begin = session.cpu(), time.monotonic()
@@ -245,14 +254,19 @@ def listening(seconds):
     with Session(size="empty", rtf=1) as session:
         out = {"create_s": session.create("huge")}
         out["topics_s"] = session.item_topics_stand()
-        before, recorded = session.settled_memory(), session.recording()
+        looks = [Look(session, settled=True)]
+        connected = threading.Timer(CONNECTED, lambda: looks.append(Look(session)))
+        connected.start()
         out |= client(session, seconds)
-        after = session.memory()
-        for name in sorted(after):
-            programs.say(f"  {name}: {before[name]:.0f} MB before, {after[name]:.0f} afterwards")
+        connected.cancel()
+        connected.join()
+        looks.append(Look(session))
+        for name in sorted(looks[-1].memory):
+            each = ", ".join(f"{look.memory[name]:.0f}" for look in looks)
+            programs.say(f"  {name}: {each} MB")
         return out | {
-            "memory_before_mb": before.total(),
-            "recording_mb": [recorded, session.recording()],
+            "memory_at_mb": [look.memory.total() for look in looks],
+            "recording_mb": [look.recording for look in looks],
         }
 
 
