@@ -75,4 +75,5 @@ class _Ways:
                 yield heading, cell + dx + dy * self._width
 
     def _leads(self, cell: int, heading: int, to: int) -> bool:
-        return bool(self._passable[cell] and self._passable[to] and self._exits[cell] >> heading & 1)
+        is_open = self._passable[cell] and self._passable[to]
+        return bool(is_open and self._exits[cell] >> heading & 1)

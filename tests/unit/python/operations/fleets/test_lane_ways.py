@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Streets that only a lane leads to, or that lead only into one, are as sound as the lane itself."""
+"""Streets to which only a lane leads, or that lead only into one, are as sound as the lane."""
 
 from warehouse_layout.file import layout_file
 from warehouse_layout.place import file_check, placement
