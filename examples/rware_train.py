@@ -31,7 +31,6 @@ from warehouse_learning.marl.imitation import imitate
 from warehouse_learning.marl.training import ALGORITHMS, Training, TrainingSettings
 from warehouse_learning.rware.motion import PHYSICS
 
-
 OWN_OPTIONS = {"algorithm", "steps", "imitation"}
 SETTINGS = {f.name: f.type for f in fields(TrainingSettings) if f.name not in OWN_OPTIONS}
 
