@@ -182,6 +182,8 @@ class Execution {
   bool isAskew(int robot) const;
   bool isInReach(int robot, Cell cell) const;
   void extend(int robot);
+  void grant(int robot);
+  void sendAgain(int robot);
   void recentre(int robot);
   Cell refuge(int robot) const;
   bool mayRest(int robot, Cell cell) const;
