@@ -6,6 +6,7 @@ import contextlib
 import json
 import os
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -30,6 +31,9 @@ from warehouse_sim.tracker import topics_allowed
 PATIENCE = 120  # [s]
 TICK = os.sysconf("SC_CLK_TCK")
 NODE = "kiva_world_node"
+CONNECTED = 60.0  # after its start a client's connections, and all queues, are there [s]
+SETTLED = 0.005  # of its memory
+SETTLING = 8.0  # for how long memory is as steady as that [s]
 
 
 class Session:
@@ -158,12 +162,29 @@ class Session:
         return out
 
     def memory(self):
-        """Returns the memory of all nodes [MB]; shared pages count once."""
-        return sum(memory_of(pid) for pid in self.nodes()) / 1e3
+        """Returns the memory of each node [MB], by program name; shared pages count once."""
+        out = collections.Counter()
+        for pid, name in self.nodes().items():
+            out[name] += memory_of(pid) / 1e3
+        return out
 
-    def node_memory(self):
-        """Returns the memory of the world's node [MB]."""
-        return sum(memory_of(p) for p, name in self.nodes().items() if name == NODE) / 1e3
+    def recording(self):
+        """Returns how much of the viewer's memory is its recording of the last hour [MB]."""
+        with urllib.request.urlopen(f"http://localhost:{self._page}/metrics") as answer:
+            row = re.search(r"^warehouse_recording_bytes (\S+)", answer.read().decode(), re.M)
+        return float(row[1]) / 1e6
+
+    def settled_memory(self, patience=60):
+        """Returns memory() once its sum is steady: a world returns free memory some seconds after
+        it was built."""
+        last, end = self.memory(), time.monotonic() + patience
+        steady_since = time.monotonic()
+        while time.monotonic() < min(end, steady_since + SETTLING):
+            time.sleep(1)
+            memory = self.memory()
+            if abs(memory.total() - last.total()) > SETTLED * last.total():
+                last, steady_since = memory, time.monotonic()
+        return self.memory()
 
     def cpu(self):
         """CPU seconds by program name."""
@@ -208,6 +229,14 @@ def _cpu(pid):
     return 0.0
 
 
+class Look:
+    """The memory of each node now, or once it is steady, and of the viewer's recording [MB]."""
+
+    def __init__(self, session, settled=False):
+        self.memory = session.settled_memory() if settled else session.memory()
+        self.recording = session.recording()
+
+
 def client(session, seconds, *options):
     """What one client of the whole fleet gets, and each program's share of a core meanwhile."""
     before, begin = session.cpu(), time.monotonic()
@@ -216,7 +245,7 @@ def client(session, seconds, *options):
     out = programs.figures(command, seconds + 300)[0]
     took, after = time.monotonic() - begin, session.cpu()
     out["cores"] = {name: (used - before.get(name, 0)) / took for name, used in after.items()}
-    out["memory_mb"] = session.memory()
+    out["memory_mb"] = session.memory().total()
     return out | {"seconds": seconds}
 
 
@@ -225,8 +254,20 @@ def listening(seconds):
     with Session(size="empty", rtf=1) as session:
         out = {"create_s": session.create("huge")}
         out["topics_s"] = session.item_topics_stand()
-        before = session.memory()
-        return out | client(session, seconds) | {"memory_before_mb": before}
+        looks = [Look(session, settled=True)]
+        connected = threading.Timer(CONNECTED, lambda: looks.append(Look(session)))
+        connected.start()
+        out |= client(session, seconds)
+        connected.cancel()
+        connected.join()
+        looks.append(Look(session))
+        for name in sorted(looks[-1].memory):
+            each = ", ".join(f"{look.memory[name]:.0f}" for look in looks)
+            programs.say(f"  {name}: {each} MB")
+        return out | {
+            "memory_at_mb": [look.memory.total() for look in looks],
+            "recording_mb": [look.recording for look in looks],
+        }
 
 
 def unheard(seconds):
@@ -252,5 +293,5 @@ def working(minutes):
             "rtf": simulated / took,
             "delivered": session.delivered() - delivered,
             "cores": cores,
-            "memory_mb": session.memory(),
+            "memory_mb": session.memory().total(),
         }

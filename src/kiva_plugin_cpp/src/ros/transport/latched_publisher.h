@@ -18,8 +18,9 @@ template <typename Message>
 class LatchedPublisher {
  public:
   LatchedPublisher() = default;
-  /// `count` is called with +1 or -1 as subscribers connect and disconnect.
-  LatchedPublisher(ros::NodeHandle& node, const std::string& topic, int queue_size,
+  /// `count` is called with +1 or -1 as subscribers connect and disconnect. `node` is a copy, as in
+  /// advertiseCounted().
+  LatchedPublisher(ros::NodeHandle node, const std::string& topic, int queue_size,
                    const std::function<void(int)>& count)
       : last_(std::make_shared<Last>()) {
     const auto welcome = [last = last_, count](const ros::SingleSubscriberPublisher& newcomer) {

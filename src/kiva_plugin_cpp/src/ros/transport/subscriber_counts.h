@@ -56,9 +56,10 @@ class SubscriberCounts {
   std::map<int, int> robot_counts_[kRobotTopics];  ///< By robot's id; guarded by mutex_.
 };
 
-/// Advertises a topic whose subscribers are counted: `count` is called with +1 or -1.
+/// Advertises a topic whose subscribers are counted: `count` is called with +1 or -1. `node` is a
+/// copy, since a handle remembers all that was ever advertised by it (roscpp's `pubs_`).
 template <typename Message>
-ros::Publisher advertiseCounted(ros::NodeHandle& node, const std::string& topic, int queue_size,
+ros::Publisher advertiseCounted(ros::NodeHandle node, const std::string& topic, int queue_size,
                                 const std::function<void(int)>& count) {
   return node.advertise<Message>(
       topic, queue_size, [count](const ros::SingleSubscriberPublisher&) { count(+1); },

@@ -40,6 +40,7 @@ from warehouse_layout.floor.stations import (
     STEPS,
     Station,
     check_lane,
+    lane_mask,
     with_lanes,
 )
 
@@ -150,7 +151,7 @@ def _painted(plan: FloorPlan) -> Iterator[tuple[str, list[Rectangle]]]:
     yield "parking", rectangles(plan.parking & ~charging)
     yield "charging", rectangles(charging)
     free = with_lanes(np.full(plan.shape, 15, np.uint8), plan.passable, plan.stations)
-    ruled = (plan.exits != free) & ~plan.lane
+    ruled = (plan.exits != free) & ~lane_mask(plan.stations, plan.shape)
     for mask in np.unique(plan.exits[ruled]):
         label = "exits" + "".join(h for i, h in enumerate(HEADINGS) if mask >> i & 1)
         yield label, rectangles(ruled & (plan.exits == mask))

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 
 from warehouse_layout._core import Floor, FloorError, check_layout
 from warehouse_layout.floor.elevators import Elevator, tiers
+from warehouse_layout.floor.lane_ways import with_ways
 from warehouse_layout.floor.stations import PICK, REPLENISH, Station, lane_mask, with_lanes
 
 __all__ = ["PICK", "REPLENISH", "FloorError", "FloorPlan", "Station"]
@@ -56,8 +57,10 @@ class FloorPlan:
 
     @cached_property
     def lane(self) -> np.ndarray:
-        """(h, w) bool: cells of stations' lanes."""
-        return lane_mask(self.stations, self.shape)
+        """(h, w) bool: cells of stations' lanes, and of the streets that lead only into them or out
+        of them."""
+        lane = lane_mask(self.stations, self.shape)
+        return with_ways(lane, self.passable, self.storage | self.parking, self.exits)
 
     @cached_property
     def tier(self) -> np.ndarray:

@@ -110,7 +110,9 @@ class Viewer:
         notes = CommandNotes(ros, self.commands)
         hear(ros, self.stop.hear, notes.note)
         hear_calls(ros, notes.note_call)
-        self.metrics = Metrics(feed, operations)
+        recording = self.history
+        recorded = (lambda: recording.size) if recording else None
+        self.metrics = Metrics(feed, operations, recorded)
         self.backend = ApiBackend(
             feed,
             self.journal,

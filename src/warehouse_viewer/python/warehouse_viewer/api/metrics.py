@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from prometheus_client import CollectorRegistry
@@ -64,10 +64,17 @@ TRANSPORT_STATES = ("open", "under_way")
 
 
 class Metrics(Collector):
-    """Figures of a Feed and of the operations, read on each request."""
+    """Figures of a Feed and of the operations, read on each request. recorded: returns how much
+    memory the recording of the last hour takes [bytes]; None: there is none."""
 
-    def __init__(self, feed: Feed, operations: OperationsClient) -> None:
+    def __init__(
+        self,
+        feed: Feed,
+        operations: OperationsClient,
+        recorded: Callable[[], int] | None = None,
+    ) -> None:
         self._feed, self._operations, self._shift = feed, operations, operations.feed
+        self._recorded = recorded
         self._registry = CollectorRegistry()
         self._registry.register(self)
 
@@ -85,6 +92,9 @@ class Metrics(Collector):
         yield _gauge("shift_up", "Whether a shift is running.", float(self._shift.runs))
         state = self._feed.coordinator
         yield _gauge("coordinator_up", "Whether a coordinator runs.", float(state is not None))
+        if self._recorded:
+            text = "Memory of the recording of the last hour."
+            yield _gauge("recording_bytes", text, self._recorded())
         yield from self._world()
         if state:
             yield from _fleet(state)

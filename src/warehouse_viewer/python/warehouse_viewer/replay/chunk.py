@@ -59,6 +59,7 @@ class OpenChunk:
         self.scene, self.begin, self.end, self.wall = scene, begin, begin, wall
         self._parts: list[bytes] = []
         self._marks: list[Mark] = []
+        self.size = 0  # of what was added, not compressed [bytes]
 
     def add_update(self, stamp: float, data: bytes) -> None:
         """Adds an update; `stamp` is in simulated time [s]."""
@@ -74,6 +75,7 @@ class OpenChunk:
 
     def _add(self, kind: int, stamp: float, data: bytes) -> None:
         self._parts += (_HEAD.pack(kind, len(data), stamp), data, bytes(-len(data) % 8))
+        self.size += _HEAD.size + len(data) + -len(data) % 8
         self.end = max(self.end, stamp)
 
     def packed(self, number: int, level: int = LEVEL) -> Chunk:

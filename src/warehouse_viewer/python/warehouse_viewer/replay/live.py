@@ -32,6 +32,11 @@ class LiveRecording:
         """Records the model as it is now, if that is due."""
         self._recorder.take()
 
+    @property
+    def size(self) -> int:
+        """How much memory it takes [bytes]."""
+        return self.store.size + self._recorder.open_size
+
     def routes(self) -> list[Route]:
         """Returns the routes by which a page plays it."""
         return RecordingRoutes(self.store, self._recorder.open_chunk).routes()

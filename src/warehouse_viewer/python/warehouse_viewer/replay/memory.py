@@ -71,9 +71,9 @@ class MemoryStore:
     # --- reading
     @property
     def size(self) -> int:
-        """How much memory chunks and scenes take [bytes]."""
-        chunks = sum(len(chunk.data) for chunk in self._chunks.values())
-        return chunks + sum(map(len, self._scenes.values()))
+        """How much memory chunks and scenes take [bytes]. Any thread may ask."""
+        chunks = sum(len(chunk.data) for chunk in list(self._chunks.values()))
+        return chunks + sum(map(len, list(self._scenes.values())))
 
     @property
     def chunks(self) -> Sequence[Chunk]:

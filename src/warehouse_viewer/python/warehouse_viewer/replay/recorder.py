@@ -92,6 +92,11 @@ class Recorder:
         self._take_events(chunk)
         self._take_figures(chunk)
 
+    @property
+    def open_size(self) -> int:
+        """How much memory the chunk takes that still grows [bytes]."""
+        return self._open.size if self._open else 0
+
     def open_chunk(self) -> Chunk | None:
         """Returns the chunk that still grows, as it is now; None if there is none."""
         return self._open.packed(self._store.next_number(), 1) if self._open else None

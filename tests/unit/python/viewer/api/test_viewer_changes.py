@@ -166,11 +166,12 @@ def test_prometheus_gets_every_figure_that_the_dashboard_shows():
     shift.tell("forecasts", msg.ForecastResult, **forecast())
     feed = Heard(performance=PerformanceMetrics(real_time_factor=0.9), fleet=fleet(stamp=60.0))
     feed.coordinator = coordinator_state(60.0, bringing=5, plan_p99=20.0, alarms=["a", "b"])
-    text, kind = Metrics(feed, shift.work).text()
+    text, kind = Metrics(feed, shift.work, lambda: 1000).text()
     assert kind.startswith("text/plain")
     families = list(text_string_to_metric_families(text.decode()))
     samples = {(s.name, *s.labels.values()): s.value for f in families for s in f.samples}
     assert samples["warehouse_items_picked_total",] == 42
+    assert samples["warehouse_recording_bytes",] == 1000
     assert samples["warehouse_orders", "open"] == 7
     assert samples["warehouse_orders_late",] == 3
     assert samples["warehouse_robots", "bringing"] == 5

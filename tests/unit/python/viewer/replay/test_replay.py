@@ -283,6 +283,7 @@ def test_what_goes_on_is_played_up_to_now():
     assert (index["live"], index["end"], len(index["chunks"])) == (True, 39.5, 2)
     data = request(_app(routes), f"/recording/chunks/{index['open']}").body
     assert messages(data)[-1][1] == 39.5
+    assert live.size == live.store.size + len(data)
 
 
 def _app(routes):

@@ -41,7 +41,8 @@ class TypedInputTopic : public InputTopic {
   using Pointer = boost::shared_ptr<const Message>;
 
   /// `recorded_as`: its name in a recording. `live`: whether to subscribe; a replay does not.
-  TypedInputTopic(ros::NodeHandle& node, const std::string& name, const std::string& recorded_as,
+  /// `node` is a copy, since a handle remembers each subscription ever made by it.
+  TypedInputTopic(ros::NodeHandle node, const std::string& name, const std::string& recorded_as,
                   bool live)
       : recorded_as_(recorded_as) {
     if (!live) return;

@@ -58,6 +58,7 @@ ReplaceService::ReplaceService(ros::NodeHandle& node, SimulationThread& simulati
       model_paths_(std::move(model_paths)),
       sources_(sources),
       calls_(node.resolveName("replace_models")),
+      heap_trim_(node),
       server_(node.advertiseService("replace_models", &ReplaceService::replace, this)) {}
 
 bool ReplaceService::replace(ros::ServiceEvent<Request, Response>& event) {
@@ -69,6 +70,7 @@ bool ReplaceService::replace(ros::ServiceEvent<Request, Response>& event) {
             Progress([](const std::string& text) { ROS_INFO("%s", text.c_str()); }), &changed};
   reply(response, [&] { return replace(call); });
   response.changed = changed;
+  if (changed) heap_trim_.whenSteady();
   return true;
 }
 

@@ -14,6 +14,7 @@
 #include "ros/services/models/model_sources.h"
 #include "ros/services/models/replacement.h"
 #include "ros/simulation/simulation_thread.h"
+#include "ros/transport/heap_trim.h"
 
 namespace kiva_ros {
 
@@ -55,6 +56,7 @@ class ReplaceService {
   const kiva::ModelPaths model_paths_;
   ModelSources& sources_;
   CallTopic calls_;
+  HeapTrim heap_trim_;
   ros::ServiceServer server_;
 };
 
