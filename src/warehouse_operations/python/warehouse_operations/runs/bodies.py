@@ -13,6 +13,7 @@ from warehouse_operations.stock.site import Site
 
 NAMED = 6  # steps that a sentence names, at most
 
+
 def floor_for(site: Site) -> tuple[Site, np.ndarray]:
     """Returns a Site whose robots have bodies, and the steps that its floor lacks for that reason:
     see with_ways_back()."""

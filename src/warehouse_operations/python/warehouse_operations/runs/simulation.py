@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from warehouse_fleet.planners.planner_plugins import PlannerError
-from warehouse_layout import FloorError
 from warehouse_layout.file.layout_file import LayoutFile, LayoutFileError, text_of
 from warehouse_layout.file.request import items_for
 from warehouse_layout.generate import layout_choice
@@ -220,8 +219,8 @@ def _open_operations(description: Description, database: str | None = None) -> O
             site, _ = bodies.floor_for(site)
             if jams := bodies.jams(description.instance, site):
                 raise InstanceError(
-                    f"{jams}; simulate without physics: ideal robots, which pass through each other,"
-                    " work there"
+                    f"{jams}; simulate without physics: ideal robots, which pass through each"
+                    " other, work there"
                 )
             with _errors_as_ours():
                 world, site = world_of(site, **_options(description))
