@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Counts of what happens in a shift."""
 
+from array import array
 from collections import defaultdict, deque
 
 from warehouse_operations.stock.orders import Bundle, Line, Order
@@ -17,9 +18,9 @@ class Tally:
         self.items_picked = self.lines_picked = self.orders_completed = 0
         self.bundles_stored = self.pieces_stored = self.late_orders = self.orders_received = 0
         self.trips = self.pick_visits = 0  # visits of units: to any station, to picking stations
-        self.turnover_s: list[float] = []
-        self.throughput_s: list[float] = []
-        self.completed_s: list[float] = []  # when each of these orders was complete
+        # Of each order that is complete: for as long as the shift lasts, so arrays.
+        self.turnover_s, self.throughput_s = array("d"), array("d")
+        self.completed_s = array("d")  # when it was
         self.picked_in: dict[int, int] = defaultdict(int)  # by INTERVAL
         self.stored_in: dict[int, int] = defaultdict(int)
         self.completed_in: dict[int, int] = defaultdict(int)

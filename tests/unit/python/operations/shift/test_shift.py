@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from array import array
 from dataclasses import replace
 
 import numpy as np
@@ -474,7 +475,7 @@ def test_an_order_that_is_made_urgent_comes_before_older_ones(tmp_path):
     # What others took less time for says nothing about an order that has waited for longer.
     waiting = next(iter(ops.shift.backlog))
     age = ops.shift.now - waiting.created
-    ops.shift.tally.turnover_s[:] = [age / 2] * 20 + [age + 30, age + 60, age + 90]
+    ops.shift.tally.turnover_s[:] = array("d", [age / 2] * 20 + [age + 30, age + 60, age + 90])
     assert ops.shift.likely_completion(waiting.order_id) == (ops.shift.now + 60, [])
     ops.shift.tally.turnover_s.pop()
     assert ops.shift.likely_completion(waiting.order_id) == (0.0, [])

@@ -70,7 +70,7 @@ bool ReplaceService::replace(ros::ServiceEvent<Request, Response>& event) {
             Progress([](const std::string& text) { ROS_INFO("%s", text.c_str()); }), &changed};
   reply(response, [&] { return replace(call); });
   response.changed = changed;
-  if (changed) heap_trim_.soon();
+  if (changed) heap_trim_.whenSteady();
   return true;
 }
 
