@@ -61,9 +61,9 @@ test-long: build-tests  ## fleets at work, seed after seed, with and without fau
 	rostest rostest/vda5050/conform_master/conform_zones.test; \
 	BURST=all rostest rostest/nodes/malformed.test; \
 	MUTATIONS=2000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/runs/test_mutations.py; \
-	../scripts/learning_packages && RWARE_STEPS=$${RWARE_STEPS:-50000} RWARE_IDS=all ../.venv/bin/python -m pytest -q -p no:cacheprovider learning/test_rware.py -k "registered or checkers"; \
-	../bench/hub/cycle_bench --count $${CYCLES:-500}; ../scripts/assistant tests && ../bench/hub/assistant_bench; \
-	../scripts/deps docs && ../scripts/docs; \
+	../scripts/learning_packages; RWARE_STEPS=$${RWARE_STEPS:-50000} RWARE_IDS=all ../.venv/bin/python -m pytest -q -p no:cacheprovider learning/test_rware.py -k "registered or checkers"; \
+	../bench/hub/cycle_bench --count $${CYCLES:-500}; ../scripts/assistant tests; ../bench/hub/assistant_bench; \
+	../scripts/deps docs; ../scripts/docs; \
 	../scripts/axe; ../scripts/pages/screens; ../scripts/docs_links; ../scripts/docs_examples; \
 	FAILURE_MINUTES=60 CHARGING_MINUTES=60 CROSSINGS=1000 exec /usr/bin/python3 -m pytest -q -s -p no:cacheprovider unit/python/fleet/test_failures.py unit/python/fleet/test_charging.py unit/python/fleet/test_people.py
 

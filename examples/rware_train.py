@@ -1,12 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Trains robots in RWARE's task, several seeds: IPPO or MAPPO, numpy alone, on one core each.
+"""Trains robots in RWARE's task, seed after seed: IPPO or MAPPO, numpy alone. One core will do:
+OPENBLAS_NUM_THREADS=1 leaves the others to other programs.
 
 examples/rware_train.py tiny-4ag                                # MAPPO, 20 million steps, seed 0
 examples/rware_train.py small-4ag --algorithm ippo --seeds 5 --out results
 examples/rware_train.py tiny-2ag --minutes 10                   # a part; the same command goes on
 examples/rware_train.py tiny-4ag --imitate 20000                # from the planner's example
 examples/rware_train.py tiny-4ag --physics bodies --from results/tiny-4ag-mappo-0.npz
+examples/rware_train.py tiny-4ag --set discount=0.98 --out discount  # what a setting is worth
 
 Each seed writes OUT/TASK-ALGORITHM-SEED.npz, a policy that warehouse_learning.watch shows, a
 .checkpoint.npz, from which the same command goes on, and .json, its learning curve.
@@ -16,7 +18,7 @@ examples/rware_results.py draws the curves and measures the policies.
 import argparse
 import json
 import signal
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
 import gymnasium
@@ -29,6 +31,9 @@ from warehouse_learning.marl.imitation import imitate
 from warehouse_learning.marl.training import ALGORITHMS, Training, TrainingSettings
 from warehouse_learning.rware.motion import PHYSICS
 
+OWN_OPTIONS = {"algorithm", "steps", "imitation"}
+SETTINGS = {f.name: f.type for f in fields(TrainingSettings) if f.name not in OWN_OPTIONS}
+
 
 def main():
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # a batch system's Ctrl-C
@@ -37,6 +42,7 @@ def main():
     settings = TrainingSettings(
         algorithm=options.algorithm, steps=options.steps, imitation=options.imitate
     )
+    settings = replace(settings, **dict(options.settings))
     try:
         begin = policy.load(options.policy) if options.policy else None
     except policy.PolicyError as error:
@@ -71,6 +77,15 @@ def arguments():
     parser.add_argument(
         "--from", dest="policy", metavar="POLICY", help="begin with a trained one, a file or a name"
     )
+    parser.add_argument(
+        "--set",
+        dest="settings",
+        action="append",
+        default=[],
+        type=setting,
+        metavar="NAME=VALUE",
+        help="another value of a setting: " + ", ".join(SETTINGS),
+    )
     parser.add_argument("--seeds", type=int, default=1, help="how many (1)")
     parser.add_argument("--first-seed", type=int, default=0)
     parser.add_argument(
@@ -78,6 +93,18 @@ def arguments():
     )
     parser.add_argument("--out", default="results", help="folder (results)")
     return parser.parse_args()
+
+
+def setting(text):
+    """Returns the name and the value of NAME=VALUE."""
+    name, _, value = text.partition("=")
+    if name not in SETTINGS:
+        raise argparse.ArgumentTypeError(f"{name!r} is none of {', '.join(SETTINGS)}")
+    try:
+        return name, (int if SETTINGS[name] in (int, "int") else float)(value)
+    except ValueError:
+        kind = "an integer" if SETTINGS[name] in (int, "int") else "a number"
+        raise argparse.ArgumentTypeError(f"{name} is {value!r}; {kind} was expected") from None
 
 
 def train(options, settings, seed, out, begin):

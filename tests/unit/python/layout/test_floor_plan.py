@@ -8,23 +8,27 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from instance_file import write_hall_instance
+from paths import ROOT
 
 from kiva_plugin_cpp import World
 from warehouse_fleet import Fleet, Rules, epibt
 from warehouse_layout import FloorError
 from warehouse_layout.convert.rawsim.instance import read_floor
+from warehouse_layout.file import layout_file
 from warehouse_layout.file.request import PRESETS, resolve
 from warehouse_layout.floor import floor_markings, plan_reader
 from warehouse_layout.generate import generated
 from warehouse_layout.generate.generated import plan
 from warehouse_layout.models import models
 from warehouse_layout.models.world_file import insertable
+from warehouse_layout.place import placement
 
 STATIONED = [name for name, counts in PRESETS.items() if counts.belts]
 REQUESTS = {name: resolve(name) for name in STATIONED} | {
     f"{robots} robots, {shelves} units": resolve("", robots=robots, shelves=shelves)
     for robots, shelves in ((0, 1), (1, 0), (3, 40), (130, 7), (10000, 40000))
 }
+TWO_FLOORS = ROOT / "tests/layouts/two_floors.layout.yaml"
 ARRAYS = ("passable", "storage", "parking", "lane", "exits")
 
 
@@ -95,6 +99,38 @@ def test_streets_of_neighbours_are_opposed():
 def test_a_world_tells_its_floor_plan(preset):
     world = World.preset(preset)
     assert same(plan_reader.of_world(world), plan(resolve(preset)).plan)
+
+
+def test_a_world_tells_its_elevators():
+    """Names, cells and times, even or not."""
+    file = layout_file.read(TWO_FLOORS)
+    uneven = replace(file.elevators[0], name='up & "down"/2', seconds=((0.0, 12.5), (9.0, 0.0)))
+    for elevators in (file.elevators, (uneven,)):
+        laid = placement.place(replace(file, elevators=elevators))
+        plan_there = plan_reader.of_world(World.of_layout(laid))
+        assert plan_there.elevators == laid.plan.elevators
+        assert np.array_equal(plan_there.tier, laid.plan.tier)
+        assert plan_there.tier.max() == 1
+
+
+@pytest.mark.parametrize(
+    "label, cells",
+    [
+        ("elevator/lift/10", 1),
+        ("elevator/lift/", 2),
+        ("elevator/lift/-1", 2),
+        ("elevator/lift/nan", 2),
+        ("elevator/lift/1,2,3", 2),
+        ("elevator/lift/fast", 3),
+        ("elevator/", 2),
+    ],
+)
+def test_a_marking_of_no_elevator_is_refused(label, cells):
+    blank = plan(resolve("small")).plan
+    x, y = blank.origin
+    marks = [floor_markings.Mark(label, x + n, y, 1, 1) for n in range(cells)]
+    with pytest.raises(FloorError, match=re.escape(f"'{label}' on {cells} cells: elevator/NAME/")):
+        floor_markings.applied(blank, marks, {})
 
 
 def test_a_restored_world_and_one_that_was_moved_tell_theirs():

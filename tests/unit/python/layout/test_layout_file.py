@@ -184,7 +184,6 @@ FOUR = RIDES.replace("..s#", "..s# .. ..").replace("...A", "...A .. ..")
 @pytest.mark.parametrize(
     "text, message",
     [
-        (RIDES, "robots with bodies take no elevators of a layout (lift, other lift)"),
         (RIDES.replace("[6, 0]", "[3, 0]"), "elevator lift has two cells on one tier, [2, 0], [3"),
         (FOUR.replace("[[2, 1], [6, 1]]", "[[10, 0], [13, 0]]"), "elevators do not lead from each"),
     ],

@@ -11,7 +11,7 @@ from warehouse_fleet.transports.transports import Transports
 from warehouse_layout import FloorError
 from warehouse_layout.floor.floor_edges import FloorEdges
 from warehouse_layout.floor.floor_plan import PICK, FloorPlan, Station
-from warehouse_layout.floor.served_part import served_part
+from warehouse_layout.floor.served_part import served_part, with_ways_back
 
 EVERY_WAY = 0b1111
 
@@ -63,6 +63,40 @@ def test_a_one_way_street_that_only_leads_in_is_left_out_not_the_rest():
     part, left_out = served_part(plan_of(rows, exits=exits))
     part.check()
     assert left_out.cells.tolist() == [2, 8]
+
+
+def one_way_ring():
+    """Returns a plan whose streets lead round once, and its exits."""
+    right, up, left, down = 1, 2, 4, 8
+    exits = np.array(
+        [
+            [right, right | up, right | up, up],
+            [down, EVERY_WAY, EVERY_WAY, up | left],
+            [down, left, left, left],
+        ],
+        np.uint8,
+    )
+    return ["....", ".uu.", "...."], exits
+
+
+def test_a_way_against_a_one_way_street_is_left_out_alone():
+    """A robot could only come back from there, against those that come along the street."""
+    rows, exits = one_way_ring()
+    exits[1, 3] |= 8
+    plan = plan_of(rows, exits=exits)
+    with pytest.raises(FloorError, match=r"\(3, 1\) to \(3, 0\)$"):
+        plan.check()
+    part, left_out = served_part(plan)
+    part.check()
+    assert left_out.cells.tolist() == [] and part.exits[1, 3] == 2 | 4
+    same, steps = with_ways_back(plan)
+    assert steps.tolist() == [[7, 3]] and (same.exits == part.exits).all()
+
+
+def test_a_floor_of_which_some_is_left_out_stays_as_it_is():
+    for plan in (plan_of([".....", ".#.##", "...##"]), plan_of(["u"]), plan_of(one_way_ring()[0])):
+        same, steps = with_ways_back(plan)
+        assert same is plan and not len(steps)
 
 
 def test_a_station_beyond_is_left_out_by_name():

@@ -21,9 +21,11 @@ from warehouse_fleet.hosts.warehouse_watch import WarehouseWatch, is_same_floor,
 from warehouse_fleet.hosts.zone_keeper import ZoneKeeper
 from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_fleet.robots.robot_table import reports_of
+from warehouse_fleet.traffic.elevators import Move
 from warehouse_layout import FloorError
 from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor.landings import Landings
 from warehouse_layout.floor.served_part import LeftOut, served_part
 from warehouse_layout.message_enums import RobotMode
 from warehouse_msgs.msg import (
@@ -80,7 +82,8 @@ class CoordinatorNode:
         self._state = publish("warehouse/coordinator", CoordinatorState, latch=True, queue_size=1)
         self._paths = publish("warehouse/coordinator_paths", CoordinatorPaths, queue_size=1)
         self._keep_mode = rospy.ServiceProxy("gazebo/keep_robot_mode", KeepRobotMode)
-        CoordinatorServices(self)
+        self._services = CoordinatorServices(self)
+        self._riders: list[Move] = []  # that the world has not set down yet
         self._zones = ZoneKeeper(self)
         self._watch = WarehouseWatch()
         self._watch.begin()
@@ -153,6 +156,18 @@ class CoordinatorNode:
             for lift in decision.lifts
         ]
         self._send(orders, decision.cancels)
+        self._set_down([*self._riders, *decision.moves])
+
+    def _set_down(self, moves: list[Move]) -> None:
+        """Has the world set robots down that have ridden an elevator; tries again with the next
+        reports where it does not."""
+        self._riders = []
+        for move in moves:
+            if move.kiva_id not in self._watch.fleet.kiva_id:
+                continue  # it was deleted
+            if why := self._services.set_down(move, self.yaw_of(move.kiva_id)):
+                rospy.logwarn_throttle(10, f"kiva{move.kiva_id} stays in its elevator: {why}")
+                self._riders.append(move)
 
     def _send(self, orders: FleetOrders, cancels: list[int]) -> None:
         orders.cancels = [Cancel(kiva_id) for kiva_id in cancels]
@@ -239,6 +254,7 @@ class CoordinatorNode:
         if self.controller is not None:
             self.controller.close()
         self.controller = self._random = None
+        self._riders = []
         self._watch.take_refused()
         self._watch.take_rejected()
         try:
@@ -247,6 +263,8 @@ class CoordinatorNode:
                 return  # the floor is being built
             whole = plan_reader.of_messages(grid, self._watch.scenery)
             plan, left_out = served_part(whole)
+            if plan.elevators:
+                Landings(plan).check()
         except (rospy.ServiceException, FloorError) as error:
             self._give_up(str(error))
             return

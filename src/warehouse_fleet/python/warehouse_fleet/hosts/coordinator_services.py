@@ -13,6 +13,7 @@ from gazebo_msgs.srv import SetModelState
 from warehouse_client.command_services import CommandServices
 from warehouse_fleet.hosts.event_publisher import EventPublisher
 from warehouse_fleet.hosts.fleet_driver import square
+from warehouse_fleet.traffic.elevators import Move
 from warehouse_fleet.traffic.traffic import STAYS
 from warehouse_fleet.transports.towing import TowOrder
 from warehouse_fleet.transports.transport_book import TransportAnswer
@@ -123,12 +124,18 @@ class CoordinatorServices:
             traffic = host.controller.traffic
             cell = int(host.controller.plan.cell_of(order.x, order.y))
             traffic.shut(cell, traffic.time + STAYS)  # until the robot is seen there
-            state = _state_of(order, square(host.yaw_of(request.kiva_id)))
+            yaw = host.yaw_of(request.kiva_id)
+        why = self.set_down(order, yaw)
+        return TowResponse(not why, why)
+
+    def set_down(self, order: TowOrder | Move, yaw: float) -> str:
+        """Has the world set a robot down, with what it carries, along the axis nearest to a heading
+        [rad]. Returns why it does not, or an empty text."""
         try:
-            answer = self._place(state)
+            answer = self._place(_state_of(order, square(yaw)))
         except rospy.ServiceException as error:
-            return TowResponse(False, str(error))
-        return TowResponse(answer.success, "" if answer.success else answer.status_message)
+            return str(error)
+        return "" if answer.success else answer.status_message
 
 
 def check_mode(mode: int) -> None:
@@ -138,7 +145,7 @@ def check_mode(mode: int) -> None:
         raise ValueError(text)
 
 
-def _state_of(order: TowOrder, yaw: float) -> ModelState:
+def _state_of(order: TowOrder | Move, yaw: float) -> ModelState:
     state = ModelState(model_name=f"kiva{order.kiva_id}", reference_frame="world")
     state.pose.position.x, state.pose.position.y = order.x, order.y
     state.pose.orientation.z = math.sin(yaw / 2)

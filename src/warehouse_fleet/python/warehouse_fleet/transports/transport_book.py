@@ -128,9 +128,9 @@ class TransportBook:
     Arrays by robot, (n,): `step_of` (the Step of its transport; NOWHERE: it has none), `place_of`
     (the storage cell that is kept for its unit), `station_of` (an index into `stations`).
 
-    `open`: those without a robot, the most urgent first. `ready`: those at step READY, in the order
-    in which they came to it. By station, `fetched` counts units that robots drive to or wait
-    beneath, `inbound` those that are lifted, until they leave it; go_on() counts.
+    `open`: those without a robot, the most urgent first. By station, `ready` lists those at step
+    READY, in the order in which they came to it, `fetched` counts units that robots drive to or
+    wait beneath, `inbound` those that are lifted, until they leave it.
     """
 
     def __init__(
@@ -148,7 +148,7 @@ class TransportBook:
         self._station = {name: i for i, name in enumerate(stations)}
         self._turns = 0
         self.open: list[Transport] = []
-        self.ready: list[Transport] = []
+        self.ready: dict[str, list[Transport]] = {name: [] for name in ("", *self._station)}
         self.of_robot: dict[int, Transport] = {}
         self.of_unit: dict[int, Transport] = {}
         self.inbound: collections.Counter[str] = collections.Counter()
@@ -238,10 +238,12 @@ class TransportBook:
         transport.step, transport.since = step, self.time
         self.step_of[transport.robot] = step
         self._count(transport, 1)
-        if step == READY:
-            self.ready.append(transport)
 
     def _count(self, transport: Transport, change: int) -> None:
+        """Adds a transport at its step to those of its station, or takes it away there."""
+        if transport.step == READY:
+            ready = self.ready.setdefault(transport.station, [])
+            ready.append(transport) if change > 0 else ready.remove(transport)
         if transport.step in FETCHED:
             self.fetched[transport.station] += change
         elif transport.step in INBOUND:

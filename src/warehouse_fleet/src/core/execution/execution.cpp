@@ -41,35 +41,66 @@ void Execution::update(double time, std::vector<Report> reports) {
     reports_.resize(reports.size());
   }
   const std::vector<Report> before = std::exchange(reports_, std::move(reports));
+  barring_.clear();
+  std::vector<int> outsiders;
   // Members of the fleet come first: obstacles get only the cells that members do not hold.
   for (int robot = 0; robot < robots; ++robot) {
-    Course& course = courses_[robot];
-    if (rests(robot, before[robot])) {
-      course.still_since = course.moved = now_;
-      continue;
+    updateMember(robot, elapsed, before[robot]);
+    if (!courses_[robot].isMember()) {
+      outsiders.push_back(robot);
+    } else if (mayBar(robot)) {
+      barring_.push_back(robot);
     }
-    if (course.isMember() && !reports_[robot].is_controlled) {
-      course.recovery = {};  // as a member it begins afresh, even if this path is not over
-      if (isOver(robot)) dismiss(robot);
-    }
-    if (!course.isMember()) continue;
-    follow(robot);
-    if (course.isMember()) keepAround(robot);
-    measure(robot, elapsed, before[robot]);
-    measureGap(robot, before[robot]);
   }
-  for (int robot = 0; robot < robots; ++robot) {
-    if (courses_[robot].isMember()) continue;
-    courses_[robot].still_since = now_;
-    vacate(robot);
-    if (reports_[robot].is_controlled) {
-      admit(robot);
-    } else {
-      courses_[robot].recovery = {};
-    }
-    courses_[robot].isMember() ? keepAround(robot) : occupy(robot);
+  for (const int robot : outsiders) {
+    updateOutsider(robot);
+    barring_.push_back(robot);
   }
   findTight();
+}
+
+void Execution::updateMember(int robot, double elapsed, const Report& before) {
+  Course& course = courses_[robot];
+  if (rests(robot, before)) {
+    course.still_since = course.moved = now_;
+    return;
+  }
+  if (course.isMember() && !reports_[robot].is_controlled) {
+    course.recovery = {};  // as a member it begins afresh, even if this path is not over
+    if (isOver(robot)) dismiss(robot);
+  }
+  if (!course.isMember()) return;
+  follow(robot);
+  if (course.isMember()) keepAround(robot);
+  measure(robot, elapsed, before);
+  measureGap(robot, before);
+}
+
+/// Admits a robot that is no member if it can, or has it hold the cells that it stands on.
+void Execution::updateOutsider(int robot) {
+  Course& course = courses_[robot];
+  course.still_since = now_;
+  vacate(robot);
+  if (reports_[robot].is_controlled) {
+    admit(robot);
+  } else {
+    course.recovery = {};
+  }
+  course.isMember() ? keepAround(robot) : occupy(robot);
+}
+
+/// Returns whether a member may close cells to others, or leave them no room to turn.
+bool Execution::mayBar(int robot) const {
+  const Course& course = courses_[robot];
+  return course.is_astray || !course.occupied.empty() || !reports_[robot].is_controlled ||
+         isStalled(robot);
+}
+
+void Execution::setBroken(std::vector<std::uint8_t> broken) {
+  broken_ = std::move(broken);
+  for (int robot = 0; robot < robots(); ++robot) {
+    if (isBroken(robot)) barring_.push_back(robot);
+  }
 }
 
 /// Returns whether nothing but time changed for a robot of the fleet: it stands, with nothing

@@ -30,10 +30,25 @@ void Execution::extend(int robot) {
   Course& course = courses_[robot];
   course.waits_for = kNobody;
   course.hindrance = Hindrance::kNone;
-  if (reports_[robot].is_busy || !reports_[robot].is_controlled || course.isWithdrawn()) return;
-  if (isBroken(robot)) return;
-  if (course.is_astray) return recentre(robot);
+  const bool is_busy = reports_[robot].is_busy;
+  if (!reports_[robot].is_controlled || course.isWithdrawn() || isBroken(robot)) return;
+  if (course.is_astray) return is_busy ? void() : recentre(robot);
   const int before = course.points();
+  if (!is_busy) grant(robot);
+  const bool is_new = course.points() > before;
+  if (is_new && !course.isActive()) {
+    ++course.id;
+    send(robot, 0);
+  } else if (is_new) {
+    send(robot, course.isAccepted() ? before : 0);
+  } else {
+    sendAgain(robot);
+  }
+}
+
+/// Has a robot hold the next cells of its plan that it needs and may have.
+void Execution::grant(int robot) {
+  Course& course = courses_[robot];
   while (!course.plan.empty() && needs(robot)) {
     const Cell cell = course.plan.front().cell;
     const Cell tip = course.cells.back();
@@ -52,19 +67,18 @@ void Execution::extend(int robot) {
     course.granted.push_back(cell);
     course.plan.pop_front();
   }
-  const bool is_new = course.points() > before;
-  if (is_new && !course.isActive()) {
-    ++course.id;
-    send(robot, 0);
-  } else if (is_new) {
-    send(robot, course.isAccepted() ? before : 0);
-  } else if (course.isActive() && now_ - course.sent > kUnanswered) {
-    const bool is_waiting = course.isAccepted() && reports_[robot].state == RobotState::kWaiting &&
-                            course.reached < course.points();
-    if (is_waiting) send(robot, course.reached);
-    if (isAtEnd(robot)) releaseUpTo(robot, course.points());
-    if (course.phase() == CoursePhase::kSent) send(robot, 0);
-  }
+}
+
+/// Repeats a release that a robot does not act upon, even to one that is busy: its path ends where
+/// it is to stay, as in an elevator.
+void Execution::sendAgain(int robot) {
+  const Course& course = courses_[robot];
+  if (!course.isActive() || now_ - course.sent <= kUnanswered) return;
+  const bool is_waiting = course.isAccepted() && reports_[robot].state == RobotState::kWaiting &&
+                          course.reached < course.points();
+  if (is_waiting) send(robot, course.reached);
+  if (isAtEnd(robot)) releaseUpTo(robot, course.points());
+  if (course.phase() == CoursePhase::kSent) send(robot, 0);
 }
 
 /// Returns whether a robot waits for a path although it has no goal elsewhere.

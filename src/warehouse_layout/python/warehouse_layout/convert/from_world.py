@@ -16,7 +16,13 @@ from warehouse_layout.convert import arrows
 from warehouse_layout.convert.common import cells_of_short_cuts, with_letters
 from warehouse_layout.file import drawn_floor, station_lanes
 from warehouse_layout.file import layout_file as lf
-from warehouse_layout.file.layout_file import Cell, LayoutFile, LayoutFileError, StationEntry
+from warehouse_layout.file.layout_file import (
+    Cell,
+    ElevatorEntry,
+    LayoutFile,
+    LayoutFileError,
+    StationEntry,
+)
 from warehouse_layout.floor import floor_markings, plan_reader
 from warehouse_layout.floor.floor_plan import FloorError, FloorPlan
 from warehouse_layout.floor.masks import labelled
@@ -129,17 +135,13 @@ class _Drawing:
             robots=self._standing("kiva", plan.passable, "floor"),
             items=len(self._kinds.get("item", ())),
             path=self._path,
+            elevators=tuple(ElevatorEntry.of_elevator(e, plan.width) for e in plan.elevators),
         )
         centred = np.allclose(placement.origin(file), plan.origin)
         file = file if centred else replace(file, at=plan.origin)
         self._notes += [f"belt {text}" for text in plan.without_lane]
         if self._hint and _same(self._hint, file, plan):
-            file = replace(
-                file,
-                floor=self._hint.floor,
-                stations=self._hint.stations,
-                elevators=self._hint.elevators,
-            )
+            file = replace(file, floor=self._hint.floor, stations=self._hint.stations)
         else:
             drawn, unsaid = arrows.draw(plan, floor)
             self._notes += unsaid

@@ -12,6 +12,7 @@ Each of its links is a kind of marking, each visual a rectangle of whole cells:
     PICK/NAME/service    ... where a unit is served
     PICK/NAME/exit       ... and on to where it joins a street; REPLENISH likewise
     PICK/NAME/short_cut+x  cells that lead farther ahead in its queue, towards +x
+    elevator/NAME/SECONDS  the cells of an elevator, one a tier: elevator_marks.py
 
 Thus a world holds its floor plan, be it a file, in a process or sent as messages. Markings that are
 moved or turned by quarters mark the cells that lie beneath them then.
@@ -22,11 +23,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import count
 from typing import Any
+from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
 from warehouse_layout._core import FloorError
-from warehouse_layout.floor import palette
+from warehouse_layout.floor import elevator_marks, palette
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.interfaces import Look, Scenery
 from warehouse_layout.floor.outlines import SQUARE, Rectangle, rectangles
@@ -78,14 +80,20 @@ class Mark:
     @property
     def station(self) -> str:
         """The name of the station whose lane it marks; "" if it marks none."""
-        return self.label.split("/")[1] if self.label.count("/") == 2 else ""
+        return self.label.split("/")[1] if _is_of_lane(self.label) else ""
 
 
 # The cells of each lane, by model and label.
 Lanes = dict[tuple[str, str], list[tuple[Mark, tuple[slice, slice]]]]
 
 
+def _is_of_lane(label: str) -> bool:
+    return label.count("/") == 2 and not elevator_marks.is_label(label)
+
+
 def _kind(label: str) -> str:
+    if elevator_marks.is_label(label):
+        return elevator_marks.ELEVATOR
     kind = label.rpartition("/")[2]
     return QUEUE if kind.startswith(SHORT_CUT) else "street" if kind.startswith("exits") else kind
 
@@ -111,7 +119,7 @@ def models_of(plan: FloorPlan) -> Iterator[tuple[str, str]]:
     part: list[tuple[str, list[Rectangle]]] = []
     room, numbers = MOST_MARKS, count(1)
     for label, cells in _painted(plan):
-        is_lane = label.count("/") == 2
+        is_lane = _is_of_lane(label)
         for piece in [cells] if is_lane else _pieces(cells):
             # All parts of a lane are of one model.
             if len(piece) > room and not (is_lane and part and not label.endswith(QUEUE)):
@@ -152,6 +160,9 @@ def _painted(plan: FloorPlan) -> Iterator[tuple[str, list[Rectangle]]]:
             y, x = np.divmod(cells, plan.width)
             yield f"{station.kind}/{station.name}/{part}", np.column_stack([x, y, x, y]).tolist()
         yield from _painted_short_cuts(plan, station)
+    for elevator in plan.elevators:
+        y, x = np.divmod(elevator.cells, plan.width)
+        yield elevator_marks.label_of(elevator), np.column_stack([x, y, x, y]).tolist()
 
 
 def _painted_short_cuts(plan: FloorPlan, station: Station) -> Iterator[tuple[str, list[Rectangle]]]:
@@ -165,7 +176,7 @@ def _painted_short_cuts(plan: FloorPlan, station: Station) -> Iterator[tuple[str
 
 def _link(label: str, plan: FloorPlan, cells: Iterable[Rectangle]) -> str:
     visuals = "".join(_visual(i, label, plan, row) for i, row in enumerate(cells))
-    return f'<link name="{label}">{visuals}</link>' if visuals else ""
+    return f"<link name={quoteattr(label)}>{visuals}</link>" if visuals else ""
 
 
 def _visual(i: int, label: str, plan: FloorPlan, rectangle: Rectangle) -> str:
@@ -265,6 +276,7 @@ def applied(blank: FloorPlan, marks: Iterable[Mark], belts: Mapping[str, Point])
     marked = np.zeros(blank.shape, bool)
     areas = {"storage": storage, "parking": parking, "charging": charging, "keep_out": keep_out}
     lanes: Lanes = {}
+    landings: dict[tuple[str, str], list[int]] = {}  # of each elevator, by model and label
     for mark in marks:
         where = _cells(blank, mark)
         marked[where] = True
@@ -272,6 +284,8 @@ def applied(blank: FloorPlan, marks: Iterable[Mark], belts: Mapping[str, Point])
             areas[mark.label][where] = True
         elif mark.label.startswith("exits"):
             exits[where] = sum(1 << i for i, h in enumerate(HEADINGS) if h in mark.label)
+        elif elevator_marks.is_label(mark.label):
+            landings.setdefault((mark.model, mark.label), []).append(_number(blank, where))
         else:
             lane = (mark.model, mark.label.rpartition("/")[0])
             lanes.setdefault(lane, []).append((mark, where))
@@ -287,6 +301,7 @@ def applied(blank: FloorPlan, marks: Iterable[Mark], belts: Mapping[str, Point])
         stations=_stations(blank, lanes, passable, belts),
         obstructed=~blank.passable,
         charging=charging,
+        elevators=[elevator_marks.elevator_of(label, at) for (_, label), at in landings.items()],
     )
 
 

@@ -15,6 +15,7 @@ CELLS = {
     "queue": ("#f0e2b4", "#45402c"),
     "service": ("#eab558", "#8a6326"),
     "exit": ("#ebe6cd", "#36352a"),
+    "elevator": ("#cfc0e2", "#4f4168"),
     "belt": ("#b8967a", "#8b6a4f"),
     "wall": ("#4a525d", "#aab3bf"),
 }

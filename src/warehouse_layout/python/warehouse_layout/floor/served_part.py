@@ -76,12 +76,32 @@ def served_part(plan: FloorPlan) -> tuple[FloorPlan, LeftOut]:
     return part, LeftOut(np.flatnonzero(plan.passable & ~part.passable), gone)
 
 
+def with_ways_back(plan: FloorPlan) -> tuple[FloorPlan, np.ndarray]:
+    """Returns a FloorPlan without the steps from which a loaded robot could only come back the way
+    that it went, and those, (n, 2) from cell to cell, if all of it is served without them; else the
+    plan itself and none.
+    """
+    try:
+        part, left_out = served_part(plan)
+    except FloorError:
+        return plan, np.zeros((0, 2), int)
+    if len(left_out.cells):
+        return plan, np.zeros((0, 2), int)
+    gone = plan.exits & ~part.exits
+    steps = [
+        np.column_stack([cells, cells + step])
+        for heading, step in enumerate((1, plan.width, -1, -plan.width))
+        for cells in [np.flatnonzero(gone >> heading & 1)]
+    ]
+    return part, np.concatenate(steps)
+
+
 def _cut(exits: np.ndarray, edges: np.ndarray, width: int) -> None:
-    """Removes the edges (n, 2), pairs of cells, from `exits` in both directions."""
+    """Removes the edges (n, 2), each from a cell to another one, from `exits`. Of a street that is
+    one-way beyond a cell, only the way against that is among them: the street itself stays."""
     steps = (1, width, -1, -width)
     for cell, after in edges.tolist():
-        for at, to in ((cell, after), (after, cell)):
-            exits.flat[at] &= ~np.uint8(1 << steps.index(to - at))
+        exits.flat[cell] &= ~np.uint8(1 << steps.index(after - cell))
 
 
 def _without(plan: FloorPlan, passable: np.ndarray, exits: np.ndarray) -> FloorPlan:

@@ -11,6 +11,7 @@ from warehouse_layout._core import FloorError, layout_faults
 from warehouse_layout.file import drawn_floor, station_lanes
 from warehouse_layout.file.layout_file import KEEP_OUT, Cell, LayoutFile, LayoutFileError
 from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor.landings import Landings
 from warehouse_layout.floor.served_part import served_part
 from warehouse_layout.place.placement import place, plan_of
 
@@ -34,12 +35,14 @@ def faults(file: LayoutFile) -> list[Fault]:
     """Returns what hinders a fleet from working there; [] if nothing does."""
     drawn = drawn_floor.areas(file.floor)
     stations, lane_faults = station_lanes.of_file(file, drawn)
+    plan = plan_of(file, drawn, stations)
     out = [
         *_spacing_faults(file),
-        *_rides(file),
         *(Fault(fault.text, fault.cells) for fault in lane_faults),
+        *_floor_faults(file, plan),
     ]
-    out += _floor_faults(file, plan_of(file, drawn, stations))
+    if not out:
+        out += _landing_faults(file, plan)
     if not lane_faults:
         out += _placing_faults(file)
     return out
@@ -58,20 +61,17 @@ def _spacing_faults(file: LayoutFile) -> list[Fault]:
     ]
 
 
-def _rides(file: LayoutFile) -> list[Fault]:
-    if not file.elevators:
+def _landing_faults(file: LayoutFile, plan: FloorPlan) -> list[Fault]:
+    """Returns why robots with bodies could not come to the elevators, or past them; [] if they
+    can."""
+    if not plan.elevators:
         return []
-    cells = tuple(cell for elevator in file.elevators for cell in elevator.cells)
-    return [Fault(no_rides([elevator.name for elevator in file.elevators]), cells, True)]
-
-
-def no_rides(names: Sequence[str]) -> str:
-    """Returns the sentence about elevators where robots have bodies."""
-    return (
-        f"robots with bodies take no elevators of a layout ({', '.join(names[:NAMED])}): simulate"
-        " without physics, as ideal robots take them, or make a layout of each tier; those of an"
-        " instance (.xinst) they take"
-    )
+    try:
+        Landings(plan).check()
+    except FloorError as error:
+        cells = tuple(cell for elevator in file.elevators for cell in elevator.cells)
+        return [Fault(str(error), cells, is_of_bodies=True)]
+    return []
 
 
 def _placing_faults(file: LayoutFile) -> list[Fault]:

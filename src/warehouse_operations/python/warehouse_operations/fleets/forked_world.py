@@ -11,7 +11,6 @@ from warehouse_fleet.transports.transport_book import (
     FETCHING,
     LIFTING,
     OPEN,
-    READY,
     STORING,
     WAITING,
     Transport,
@@ -73,9 +72,7 @@ class ForkedWorld(WorldFleet):
         else:
             robots.send(robot, here, place)
         robots.busy[robot] = step in (LIFTING, WAITING, DROPPING)
-        if step == READY:
-            self.transports.book.ready.append(transport)
-        elif step in (LIFTING, DROPPING):
+        if step in (LIFTING, DROPPING):
             transport.attempts = 1
         elif step == WAITING and transport.leave:
             self.transports.leave(transport)

@@ -9,17 +9,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from warehouse_fleet.planners.planner_plugins import PlannerError
-from warehouse_layout import FloorError
 from warehouse_layout.file.layout_file import LayoutFile, LayoutFileError, text_of
 from warehouse_layout.file.request import items_for
-from warehouse_layout.floor.landings import Landings
 from warehouse_layout.generate import layout_choice
 from warehouse_layout.place import file_check, placement
 from warehouse_operations.fleets import availability, measured
 from warehouse_operations.fleets.availability import RealismError
 from warehouse_operations.fleets.building import world_of
 from warehouse_operations.policies import Policies, PolicyError
-from warehouse_operations.runs import event_file, layout_site
+from warehouse_operations.runs import bodies, event_file, layout_site
 from warehouse_operations.runs import run_files as runs
 from warehouse_operations.runs.director import Director
 from warehouse_operations.runs.event_file import Event, EventError
@@ -145,10 +143,11 @@ def remarks(description: Description) -> list[str]:
         site = read_instance(description.instance)
         chosen = _of_settings(site, settings) if settings else site
         sentences += _left_out(description.instance, chosen)
-        jams = "" if description.physics else _jams(description.instance, site)
-        sentences += (
-            [f"{jams}; ideal robots, which pass through each other, work there"] if jams else []
-        )
+        for_bodies, steps = bodies.floor_for(site)
+        if description.physics:
+            sentences += bodies.not_driven(description.instance, site, steps)
+        elif jams := bodies.jams(description.instance, for_bodies):
+            sentences.append(f"{jams}; ideal robots, which pass through each other, work there")
     if description.layout and not description.physics:
         file = layout_choice.chosen(description.layout)
         sentences += [f"{description.layout}: {text}" for text in _of_bodies(file)]
@@ -173,22 +172,6 @@ def _left_out(path: str, site: Site) -> list[str]:
         f" holds a bundle of them, at a Capacity of {most:g} at most; RAWSim-O ends with an error"
         " where it draws one at the begin"
     ]
-
-
-def _jams(path: str, site: Site) -> str:
-    """Returns a sentence about where robots with bodies could be stuck; "" where they can't."""
-    try:
-        site.plan.check()
-        Landings(site.plan).check()
-    except FloorError as error:
-        return f"{path}: {error}"
-    if site.plan.spacing < file_check.LEAST_SPACING:
-        return (
-            f"{path}: waypoints are {site.plan.spacing:g} m apart;"
-            f" {file_check.LEAST_SPACING:g} m or more were expected: a storage"
-            " unit that turns needs it beside another one"
-        )
-    return ""
 
 
 def open_operations(description: Description, database: str | None = None) -> Operations:
@@ -233,8 +216,12 @@ def _open_operations(description: Description, database: str | None = None) -> O
         _check_bundles(description.instance, site)
         world = None
         if description.physics:
-            if jams := _jams(description.instance, site):
-                raise InstanceError(jams)
+            site, _ = bodies.floor_for(site)
+            if jams := bodies.jams(description.instance, site):
+                raise InstanceError(
+                    f"{jams}; simulate without physics: ideal robots, which pass through each"
+                    " other, work there"
+                )
             with _errors_as_ours():
                 world, site = world_of(site, **_options(description))
     elif description.units:

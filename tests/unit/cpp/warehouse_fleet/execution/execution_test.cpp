@@ -402,6 +402,32 @@ TEST_F(ExecutionTest, ARefusedPathIsGivenUpOnlyWhenNoCopyOfItIsOnItsWay) {
   EXPECT_EQ(at(robots_[robot]), cell(4, 1));
 }
 
+TEST_F(ExecutionTest, OneThatIsBusyWhereItsReleasedPathEndsIsGivenTheEnd) {
+  const int robot = add(1, 1);
+  observe();
+  plan({straight(6)});
+  for (const Message& message : release()) deliver(message);
+  while (!isWaiting(robots_[robot])) {
+    now_ += kTick;
+    drive(robots_[robot]);
+    observe();
+  }
+  ASSERT_LT(robots_[robot].released, robots_[robot].path.size()) << "it waits for more";
+  execution_.fleet({at(robots_[robot])}, {kNowhere}, 1);  // it is to stay there
+  Plan stay;
+  stay.horizon = 1;
+  stay.actions = {Action::kWait};
+  execution_.adopt(stay);
+  reports_[robot].is_busy = true;  // as one in an elevator
+  now_ += 1;
+  observe();
+  for (const Message& message : release()) deliver(message);
+  now_ += kTick;
+  drive(robots_[robot]);
+  observe();
+  EXPECT_TRUE(execution_.stands(robot));
+}
+
 TEST_F(ExecutionTest, ARefusedPathFreesItsCells) {
   const int robot = add(1, 1);
   observe();

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Robots with bodies ride elevators: one at a time, for the times of the file, without contact."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from instance_file import RIDE, write_tiers_instance
+from paths import ROOT
 from test_ideal_lifts import services, units_by_tier
 
 from warehouse_fleet.hosts.fleet_driver import UPDATE, FleetDriver
@@ -11,9 +14,11 @@ from warehouse_fleet.robots.robot_table import NOWHERE
 from warehouse_fleet.traffic.elevators import Phase
 from warehouse_fleet.transports.transports import STAY, Kind
 from warehouse_layout import FloorError
+from warehouse_layout.file import layout_file
 from warehouse_layout.floor.elevators import Elevator
 from warehouse_layout.floor.landings import Landings
 from warehouse_layout.message_enums import FailureKind
+from warehouse_layout.place import file_check
 from warehouse_operations.fleets.building import world_of
 from warehouse_operations.runs.rawsim import read_instance
 from warehouse_operations.runs.simulation import Description, open_operations
@@ -203,6 +208,26 @@ def test_a_shift_on_tiers(tmp_path, tiers, bots):
         ops.run(minutes=25)
         ideal = ops.kpis()["items_picked"]
     assert 0.85 * ideal < first["items_picked"] < 1.1 * ideal
+
+
+def test_a_shift_on_the_floors_of_a_layout(tmp_path):
+    """Robots with bodies ride its elevator, too: units reach stations of both floors."""
+    description = Description(layout=str(ROOT / "tests/layouts/two_floors.layout.yaml"), seed=2)
+    with open_operations(description, str(tmp_path / "run.db")) as ops:
+        ops.run(minutes=10)
+        figures = ops.kpis()
+    assert figures["items_picked"] > 20 and figures["elevator_rides"] >= 2
+    assert [figures[name] for name in ("collisions", "blocked", "watchdog")] == [0, 0, 0]
+
+
+def test_an_elevator_of_a_layout_in_the_only_street_is_a_fault():
+    """It hinders robots with bodies alone: ideal ones pass through each other."""
+    file = layout_file.read(ROOT / "tests/layouts/two_floors.layout.yaml")
+    (lift,) = file.elevators
+    moved = replace(file, elevators=(replace(lift, cells=((10, 0), lift.cells[1])),))
+    assert file_check.faults(file) == []
+    (fault,) = file_check.faults(moved)
+    assert fault.is_of_bodies and "have no other way there and back" in fault.text
 
 
 def test_the_cells_before_an_elevator(tmp_path):

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from warehouse_fleet.robots.robot_table import RobotTable
 from warehouse_fleet.transports.lifts import Lifts
 from warehouse_fleet.transports.streets import Streets
-from warehouse_fleet.transports.transport_book import LIFTING, READY, Transport, TransportBook
+from warehouse_fleet.transports.transport_book import LIFTING, Transport, TransportBook
 
 
 class Admission:
@@ -27,24 +27,19 @@ class Admission:
     def run(self) -> None:
         """Lifts units for whose station there is room, in the order in which their robots came.
         Lifts none for a station whose lane can't be entered, passed and left now."""
-        book = self._book
-        if not book.ready:
-            return
-        waiting, book.ready = book.ready, []
-        for transport in waiting:
-            if transport.step != READY:
-                continue
-            if self._may_lift(transport):
-                self._lifts.begin(transport, LIFTING)
-            else:
-                book.ready.append(transport)
+        for station, ready in self._book.ready.items():
+            for transport in ready.copy():
+                if not self._has_room(station):
+                    break
+                if self._may_lift(transport):
+                    self._lifts.begin(transport, LIFTING)
+
+    def _has_room(self, station: str) -> bool:
+        return not station or self._book.inbound[station] < self._capacity[station]
 
     def _may_lift(self, transport: Transport) -> bool:
-        station = transport.station
-        if station and self._book.inbound[station] >= self._capacity[station]:
-            return False
         return self._is_beneath(transport) and not self._streets.is_cut_off(
-            station, transport.shelf
+            transport.station, transport.shelf
         )
 
     def _is_beneath(self, transport: Transport) -> bool:

@@ -1,0 +1,57 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Units come to stations of the other floor: their robots ride the elevator with them."""
+
+import unittest
+
+import numpy as np
+import rospy
+import rostest
+from nav_msgs.srv import GetMap
+from rostest_support.node_test import call, latched
+from rostest_support.warehouse_test import Collector
+
+from warehouse_layout.floor import plan_reader
+from warehouse_msgs.msg import CoordinatorState, Event, Scenery, TransportEvent, UnitStates
+from warehouse_msgs.srv import ReleaseTransport, Transport
+
+PATIENCE = 120.0  # [s, wall] of a transport
+UNITS = {"pick4": (1, 2), "pick2": (7, 8)}  # on the other floor, by station
+
+
+class Elevators(unittest.TestCase):
+    def test_units_change_floors(self):
+        state = Collector("/warehouse/coordinator", CoordinatorState)
+        transports = Collector("/warehouse/transports", TransportEvent)
+        events = Collector("/warehouse/events", Event)
+        units = Collector("/warehouse/unit_states", UnitStates)
+        state.first(lambda message: message.automatic == 6, PATIENCE)
+        scenery = latched("/warehouse/scenery", Scenery)
+        plan = plan_reader.of_messages(call("/warehouse/map", GetMap).map, scenery)
+        services = {station.name: station.service_cell for station in plan.stations}
+        numbers = {}
+        for station, there in UNITS.items():
+            for unit in there:
+                answer = call("/warehouse/transport", Transport, shelf_id=unit, station=station)
+                self.assertTrue(answer.accepted, answer.message)
+                numbers[answer.transport_id] = unit, services[station]
+        for number, (unit, service) in numbers.items():
+            arrived = transports.first(
+                lambda event, number=number: (
+                    event.transport_id == number and event.kind == TransportEvent.ARRIVED
+                ),
+                PATIENCE,
+            )
+            self.assertEqual(arrived.shelf_id, unit)
+            poses = np.reshape(units.messages[-1].pose, (-1, 7))
+            cells = plan.cell_of(poses[:, 0], poses[:, 1])
+            tier = plan.tier.flat[service]
+            self.assertEqual(plan.tier.flat[cells[unit - 1]], tier, f"unit {unit}")
+            self.assertTrue(call("/warehouse/release_transport", ReleaseTransport, number).success)
+        contacts = [e for e in list(events.messages) if e.kind == Event.COLLISION]
+        self.assertEqual([f"{e.model} {e.text}" for e in contacts], [])
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_elevators")
+    rostest.rosrun("warehouse_tests", "elevators", Elevators)
