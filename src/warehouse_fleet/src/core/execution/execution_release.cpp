@@ -32,7 +32,10 @@ void Execution::extend(int robot) {
   course.hindrance = Hindrance::kNone;
   const bool is_busy = reports_[robot].is_busy;
   if (!reports_[robot].is_controlled || course.isWithdrawn() || isBroken(robot)) return;
-  if (course.is_astray) return is_busy ? void() : recentre(robot);
+  if (course.is_astray) {
+    if (!is_busy) recentre(robot);
+    return;
+  }
   const int before = course.points();
   if (!is_busy) grant(robot);
   const bool is_new = course.points() > before;

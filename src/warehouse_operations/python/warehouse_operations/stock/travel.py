@@ -102,7 +102,9 @@ class Travel:
     def metres_to_places(self, cell: int, places: np.ndarray) -> np.ndarray:
         """Returns the distances of a loaded robot from a cell to storage places, (n,) [m]; those of
         other tiers are much farther."""
-        return self._of_storage(int(cell), True)[1][self._place[places]]
+        seconds, steps = self._of_storage(int(cell), True)
+        of = self._place[places]
+        return np.where(np.isfinite(seconds[of]), steps[of] * self.plan.spacing, np.inf)
 
     def seconds_from_all(self, starts: np.ndarray, cell: int) -> np.ndarray:
         """Returns the times of a loaded robot to a cell from others, most often storage places,
@@ -114,18 +116,18 @@ class Travel:
         return seconds
 
     def _of_storage(self, cell: int, forward: bool) -> tuple[np.ndarray, np.ndarray]:
-        """Returns times [s] and lengths [m] of the ways to or from storage places, (n,) each: at
-        most a seventh of the cells."""
+        """Returns (seconds, steps) of the ways to or from storage places, (n,) each: at most a
+        seventh of the cells."""
         key = cell, forward
         return _remembered(self._of_places, PLACE_TABLES, key, lambda: self._ways(cell, forward))
 
     def _ways(self, cell: int, forward: bool) -> tuple[np.ndarray, np.ndarray]:
         if self._rides:
             table = self._table(cell, forward)
-            return table.seconds[self._places], table.distance[self._places]
+            steps = table.distance[self._places] / self.plan.spacing
+            return table.seconds[self._places], steps
         seconds, steps = self._numbered.ways(cell, forward, *self._costs)
-        metres = np.where(np.isfinite(seconds), steps * self.plan.spacing, np.inf)
-        return np.where(self._places == cell, 0.0, self._from_standstill(seconds)), metres
+        return np.where(self._places == cell, 0.0, self._from_standstill(seconds)), steps
 
     def _from_standstill(self, seconds: np.ndarray) -> np.ndarray:
         """Adds the start and stop of the first run, and the turn into it."""
