@@ -99,7 +99,7 @@ def setting(text):
     """Returns the name and the value of NAME=VALUE."""
     name, _, value = text.partition("=")
     if name not in SETTINGS:
-        raise argparse.ArgumentTypeError(f"{name!r} is none of {', '.join(SETTINGS)}")
+        raise argparse.ArgumentTypeError(f"there is no setting {name!r}; known: {', '.join(SETTINGS)}")
     try:
         return name, (int if SETTINGS[name] in (int, "int") else float)(value)
     except ValueError:

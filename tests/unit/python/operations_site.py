@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A warehouse floor for tests: blocks of storage two deep, stations along its right edge."""
+"""A warehouse floor for tests: blocks of storage two deep, stations along its right edge; and the
+check of the books of a shift."""
 
 import numpy as np
 
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.stations import PICK, REPLENISH, Station
 from warehouse_operations.stock.site import Site
+from warehouse_operations.store import check
 
 BLOCK, LANE = 5, 5  # cells
 
@@ -42,3 +44,11 @@ def site(robots=8, picking=2, replenishing=1, rows=4, blocks=4, filled=0.85, bin
     items = [(f"item{bins * (u - 1) + k + 1}", u) for u in units for k in range(bins)]
     starts = {i + 1: int(cell) for i, cell in enumerate(places[:robots])}
     return Site(plan, starts, units, items, "test")
+
+
+def stock_faults(ops):
+    """Returns what does not balance in the database of a shift, up to now."""
+    ops.shift.commit()
+    ops.database.flush()
+    with ops.database.reading():
+        return check.faults(ops.database.engine)

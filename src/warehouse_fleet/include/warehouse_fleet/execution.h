@@ -57,7 +57,7 @@ class Execution {
 
   /// Sets which robots are broken, one element a robot: they stand or don't respond, and other
   /// robots take another way at once.
-  void setBroken(std::vector<std::uint8_t> broken);
+  void setBroken(std::vector<std::uint8_t> broken) { broken_ = std::move(broken); }
 
   /// Returns the fleet for the planner: positions of robots, and their committed actions. Robots
   /// that are not controlled are left out, and their cells are closed. `goal` and `home` have an
@@ -147,7 +147,6 @@ class Execution {
  private:
   void updateMember(int robot, double elapsed, const Report& before);
   void updateOutsider(int robot);
-  bool mayBar(int robot) const;
   bool rests(int robot, const Report& before) const;
   void admit(int robot);
   void dismiss(int robot);
@@ -207,8 +206,7 @@ class Execution {
   std::vector<Report> reports_;
   std::vector<Course> courses_;
   std::vector<int> members_;
-  std::vector<int> barring_;  ///< robots that alone may close cells, or leave no room to turn
-  std::vector<Cell> tight_;   ///< sorted cells where a turned load would touch one askew
+  std::vector<Cell> tight_;  ///< sorted cells where a turned load would touch one askew
   std::vector<std::uint8_t> broken_;
   Fleet asked_;
   Releases releases_;  ///< to be sent

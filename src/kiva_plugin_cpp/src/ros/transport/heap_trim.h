@@ -26,7 +26,7 @@ class HeapTrim {
 
  private:
   static constexpr double kLook = 2;           // [s, wall] from one look to the next
-  static constexpr std::size_t kSteady = 100;  // of so many parts one may change meanwhile
+  static constexpr std::size_t kSteady = 100;  // memory is steady if it changes by at most 1/100
 
   void look() {
     const std::size_t before = used_;

@@ -9,7 +9,6 @@ from warehouse_fleet.robots.robot_table import NOWHERE, RobotTable
 
 NO_PROGRESS = 30.0  # a robot counts as stuck after standing this long [s]
 LOOKS_AHEAD = 5.0  # without progress, after which the cause of waiting is looked up [s]
-EVERY = 1.0  # from one look at excuses to the next [s]
 MOVES_UP = 10.0  # a robot that has moved in a lane within this is about to be served, or leaves [s]
 
 
@@ -24,7 +23,6 @@ class Watchdog:
         self.count = 0  # how often a robot made no progress for NO_PROGRESS
         self._robots, self._lane, self._all_ahead = robots, lane, all_ahead
         self._time = 0.0  # of the last update [s]
-        self._next_look = 0.0  # at excuses [s]
         count = len(robots)
         self._excused = np.full(count, -np.inf)  # when each was last seen to be excused [s]
         self._counted = np.zeros(count, bool)
@@ -39,11 +37,9 @@ class Watchdog:
         """Looks up excuses at a time [s], and counts the robots without one."""
         robots, self._time = self._robots, time
         self._excused[robots.broken | robots.slowed_for_people | robots.rides] = time
-        if time >= self._next_look:
-            self._next_look = time + EVERY
-            waiting = self.stuck_for > LOOKS_AHEAD
-            if waiting.any():
-                self._excused[waiting & self._wait_excused()] = time
+        waiting = self.stuck_for > LOOKS_AHEAD
+        if waiting.any():
+            self._excused[waiting & self._wait_excused()] = time
         stuck = self.stuck_for > NO_PROGRESS
         self.count += int(np.count_nonzero(stuck & ~self._counted))
         self._counted = stuck

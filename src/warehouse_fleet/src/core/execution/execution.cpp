@@ -41,21 +41,13 @@ void Execution::update(double time, std::vector<Report> reports) {
     reports_.resize(reports.size());
   }
   const std::vector<Report> before = std::exchange(reports_, std::move(reports));
-  barring_.clear();
   std::vector<int> outsiders;
   // Members of the fleet come first: obstacles get only the cells that members do not hold.
   for (int robot = 0; robot < robots; ++robot) {
     updateMember(robot, elapsed, before[robot]);
-    if (!courses_[robot].isMember()) {
-      outsiders.push_back(robot);
-    } else if (mayBar(robot)) {
-      barring_.push_back(robot);
-    }
+    if (!courses_[robot].isMember()) outsiders.push_back(robot);
   }
-  for (const int robot : outsiders) {
-    updateOutsider(robot);
-    barring_.push_back(robot);
-  }
+  for (const int robot : outsiders) updateOutsider(robot);
   findTight();
 }
 
@@ -87,20 +79,6 @@ void Execution::updateOutsider(int robot) {
     course.recovery = {};
   }
   course.isMember() ? keepAround(robot) : occupy(robot);
-}
-
-/// Returns whether a member may close cells to others, or leave them no room to turn.
-bool Execution::mayBar(int robot) const {
-  const Course& course = courses_[robot];
-  return course.is_astray || !course.occupied.empty() || !reports_[robot].is_controlled ||
-         isStalled(robot);
-}
-
-void Execution::setBroken(std::vector<std::uint8_t> broken) {
-  broken_ = std::move(broken);
-  for (int robot = 0; robot < robots(); ++robot) {
-    if (isBroken(robot)) barring_.push_back(robot);
-  }
 }
 
 /// Returns whether nothing but time changed for a robot of the fleet: it stands, with nothing

@@ -73,7 +73,7 @@ void Execution::commit(int robot, std::uint8_t* row, int horizon) const {
 
 std::vector<Cell> Execution::closed() const {
   std::vector<Cell> closed = holders_.closed(now_);
-  for (const int robot : barring_) {
+  for (int robot = 0; robot < robots(); ++robot) {
     const Course& course = courses_[robot];
     closed.insert(closed.end(), course.occupied.begin(), course.occupied.end());
     if (!course.isMember() || (reports_[robot].is_controlled && !isStalled(robot))) continue;

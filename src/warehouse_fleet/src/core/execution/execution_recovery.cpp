@@ -176,7 +176,7 @@ bool Execution::isLost(int robot) const {
 /// drive straight on pass it with room to spare.
 void Execution::findTight() {
   tight_.clear();
-  for (const int robot : barring_) {
+  for (int robot = 0; robot < robots(); ++robot) {
     if (!isAskew(robot)) continue;
     const Cell at = frame_.cellAt(reports_[robot].x, reports_[robot].y);
     if (at == kNowhere) continue;

@@ -64,8 +64,8 @@ TRANSPORT_STATES = ("open", "under_way")
 
 
 class Metrics(Collector):
-    """Figures of a Feed and of the operations, read on each request. recorded: returns how much
-    memory the recording of the last hour takes [bytes]; None: there is none."""
+    """Figures of a Feed and of the operations, read on each request. recorded: returns the memory
+    that the recording of the last hour takes [bytes]; None if the viewer records nothing."""
 
     def __init__(
         self,

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from instance_file import RIDE, write_tiers_instance
+from operations_site import stock_faults
 from paths import ROOT
 from test_ideal_lifts import services, units_by_tier
 
@@ -23,7 +24,6 @@ from warehouse_operations.fleets.building import world_of
 from warehouse_operations.runs.rawsim import read_instance
 from warehouse_operations.runs.simulation import Description, open_operations
 from warehouse_operations.stock.travel import Travel
-from warehouse_operations.store import check
 
 DEADLINE = 400.0  # simulated [s]
 
@@ -192,10 +192,7 @@ def test_a_shift_on_tiers(tmp_path, tiers, bots):
         description = Description(instance=str(path), seed=3)
         with open_operations(description, str(tmp_path / f"{k}.db")) as ops:
             ops.run(minutes=25)
-            ops.shift.commit()
-            ops.database.flush()
-            with ops.database.reading():
-                assert check.faults(ops.database.engine) == []
+            assert stock_faults(ops) == []
             figures, fleet = ops.kpis(), ops.fleet
             assert fleet.stuck == 0 and fleet.refusals == [] and fleet.fallen_items == []
         outcomes.append(figures)

@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 from instance_file import RIDE, write_tiers_instance
+from operations_site import stock_faults
 from test_ideal import run
 
 from warehouse_fleet.transports.transports import STAY, Kind
@@ -13,7 +14,6 @@ from warehouse_operations.fleets.ideal import IdealFleet, NearestHooks
 from warehouse_operations.runs.rawsim import read_instance
 from warehouse_operations.runs.simulation import Description, open_operations
 from warehouse_operations.stock.travel import CHANGE, Travel
-from warehouse_operations.store import check
 
 
 @pytest.fixture
@@ -138,10 +138,7 @@ def test_an_hour_on_tiers_loses_nothing(tmp_path, tiers, share):
     description = Description(instance=str(path), physics=False, seed=3)
     with open_operations(description, str(database)) as ops:
         ops.run(minutes=60)
-        ops.shift.commit()
-        ops.database.flush()
-        with ops.database.reading():
-            assert check.faults(ops.database.engine) == []
+        assert stock_faults(ops) == []
         figures, trips = ops.kpis(), ops.fleet.trips
         standing = dict(ops.fleet.cell_of_unit)
         assert len(set(standing.values())) == len(standing)

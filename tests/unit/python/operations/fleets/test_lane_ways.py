@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Streets to which only a lane leads, or that lead only into one, are as sound as the lane."""
 
+from operations_site import stock_faults
+
 from warehouse_layout.file import layout_file
 from warehouse_layout.place import file_check, placement
 from warehouse_operations.runs.simulation import Description, open_operations
-from warehouse_operations.store import check
 
 LAYOUT = """layout: 1
 floor: |2
@@ -66,10 +67,7 @@ def test_a_shift(tmp_path):
     description = Description(layout=str(tmp_path / "a.layout.yaml"), seed=3)
     with open_operations(description, str(tmp_path / "a.db")) as ops:
         ops.run(minutes=20)
-        ops.shift.commit()
-        ops.database.flush()
-        with ops.database.reading():
-            assert check.faults(ops.database.engine) == []
+        assert stock_faults(ops) == []
         figures = ops.kpis()
         assert [figures[name] for name in ("collisions", "blocked", "watchdog")] == [0, 0, 0]
         assert ops.fleet.stuck == 0 and ops.fleet.refusals == []

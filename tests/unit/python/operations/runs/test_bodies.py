@@ -5,10 +5,10 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 from instance_file import write_instance
+from operations_site import stock_faults
 
 from warehouse_operations.runs.rawsim import InstanceError, read_instance
 from warehouse_operations.runs.simulation import Description, open_operations, remarks
-from warehouse_operations.store import check
 
 
 def instance(folder, *steps):
@@ -44,10 +44,7 @@ def test_a_step_against_a_street_is_left_out(tmp_path):
     with open_operations(description, str(tmp_path / "a.db")) as ops:
         assert not ops.site.plan.exits[y + 1, x] & 8
         ops.run(minutes=15)
-        ops.shift.commit()
-        ops.database.flush()
-        with ops.database.reading():
-            assert check.faults(ops.database.engine) == []
+        assert stock_faults(ops) == []
         figures = ops.kpis()
         assert [figures[name] for name in ("collisions", "blocked", "watchdog")] == [0, 0, 0]
         assert ops.fleet.stuck == 0 and figures["items_picked"] > 100
