@@ -11,7 +11,9 @@ constexpr int kDirectedFor =
     12;  // ticks to reach the next cell, and as many for each robot in the way
 constexpr int kDirectedForEach = 3;
 constexpr int kEffort = 2000;  // cells that the search for one robot may try
-constexpr int kPressing = 16;  // robots that press in a step
+// Cells that all searches of a step may try. Most robots that press stand in queues, behind one
+// that is served, and their searches end at once.
+constexpr int kEffortOfAll = 32000;
 
 /// Returns whether it is committed to leave its cell.
 bool drivesOn(const Wish& wish) {
@@ -25,8 +27,10 @@ void MakingWay::direct(const Fleet& fleet, bool may_press, Candidates& candidate
                        std::vector<Wish>& wishes) {
   watch(candidates, wishes);
   if (may_press) {
+    int left = kEffortOfAll;
     for (const int robot : pressing()) {
-      if (progress_[robot].next == kNowhere) press(robot, candidates, wishes);
+      if (left <= 0) break;
+      if (progress_[robot].next == kNowhere) left -= press(robot, candidates, wishes);
     }
   }
   for (int robot = 0; robot < fleet.size(); ++robot) {
@@ -50,7 +54,6 @@ std::vector<int> MakingWay::pressing() const {
     const int ours = progress_[robot].stalled, theirs = progress_[other].stalled;
     return ours != theirs ? ours > theirs : robot < other;
   });
-  if (pressing.size() > kPressing) pressing.resize(kPressing);
   return pressing;
 }
 
@@ -91,17 +94,19 @@ void MakingWay::measure(const Candidates& candidates, const Wish& wish, Progress
   }
 }
 
-/// Runs one step of priority inheritance, starting from this robot.
-void MakingWay::press(int robot, const Candidates& candidates, const std::vector<Wish>& wishes) {
+/// Runs one step of priority inheritance, starting from this robot. Returns the number of cells that
+/// it tried.
+int MakingWay::press(int robot, const Candidates& candidates, const std::vector<Wish>& wishes) {
   chain_.clear();
   is_asked_.assign(wishes.size(), 0);
   int effort = kEffort;
-  if (!move(robot, candidates, wishes, effort)) return;
+  if (!move(robot, candidates, wishes, effort)) return kEffort - effort;
   for (const int directed : chain_) {
     progress_[directed].next = to_[directed];
     progress_[directed].patience =
         kDirectedFor + kDirectedForEach * static_cast<int>(chain_.size());
   }
+  return kEffort - effort;
 }
 
 bool MakingWay::move(int robot, const Candidates& candidates, const std::vector<Wish>& wishes,

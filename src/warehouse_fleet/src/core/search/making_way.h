@@ -45,7 +45,7 @@ class MakingWay {
   void watch(const Candidates& candidates, const std::vector<Wish>& wishes);
   void measure(const Candidates& candidates, const Wish& wish, Progress& progress) const;
   std::vector<int> pressing() const;
-  void press(int robot, const Candidates& candidates, const std::vector<Wish>& wishes);
+  int press(int robot, const Candidates& candidates, const std::vector<Wish>& wishes);
   bool move(int robot, const Candidates& candidates, const std::vector<Wish>& wishes, int& effort);
   std::vector<Cell> ways(const Candidates& candidates, const Wish& wish) const;
 

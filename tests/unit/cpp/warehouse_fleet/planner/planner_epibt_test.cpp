@@ -160,13 +160,13 @@ FloorDescription loop() {
   return floor;
 }
 
-/// Drives until the first robot is at its goal, or for `most` ticks. Returns the number of ticks.
-int ticksTo(const Floor& floor, Fleet& fleet, int most) {
+/// Drives until a robot is at its goal, or for `most` ticks. Returns the number of ticks.
+int ticksTo(const Floor& floor, Fleet& fleet, int most, int who = 0) {
   const auto planner = makeEpibt();
   planner->start(floor, {}, 1);
   Plan plan;
   int ticks = 0;
-  for (; fleet.cell[0] != fleet.goal[0] && ticks < most; ++ticks) {
+  for (; fleet.cell[who] != fleet.goal[who] && ticks < most; ++ticks) {
     planner->plan(fleet, {}, plan);
     for (int robot = 0; robot < fleet.size(); ++robot) {
       const GridPose state{fleet.cell[robot], fleet.heading[robot]};
@@ -278,6 +278,34 @@ TEST(Epibt, LetsInWhoWaitsBesideAStream) {
     }
   }
   EXPECT_LT(ticks, 15);
+}
+
+TEST(Epibt, LetsOutWhoIsShutInHoweverManyWaitInQueues) {
+  // In each queue a robot waits for one that is served, which can't be hurried. Below them a robot
+  // with a unit comes out of its storage place, before which another waits to drive beneath it.
+  constexpr int kQueues = 24, kServed = 7;
+  std::string queues, walls(3 * kQueues, '#'), aisle(3 * kQueues, '.'), places = walls;
+  for (int queue = 0; queue < kQueues; ++queue) queues += "..#";
+  places[5] = 'S';
+  const Floor floor(drawn({queues, walls, aisle, places, places}));
+  const Cell shut_in = 3 * floor.width() + 5, before = shut_in - floor.width();
+  Fleet fleet;
+  fleet.committed_ticks = kServed;
+  const auto add = [&](Cell cell, Cell goal, bool is_loaded, bool is_served) {
+    fleet.cell.push_back(cell);
+    fleet.goal.push_back(goal);
+    fleet.loaded.push_back(is_loaded);
+    const auto wait = static_cast<std::uint8_t>(Action::kWait);
+    fleet.committed.insert(fleet.committed.end(), kServed, is_served ? wait : Fleet::kFree);
+  };
+  for (Cell first = 0; first < 3 * kQueues; first += 3) {
+    add(first, first + 1, true, false);
+    add(first + 1, first + 1, true, true);
+  }
+  add(shut_in, before + 60, true, false);
+  add(before, shut_in + floor.width(), false, false);
+  fleet.heading.assign(fleet.cell.size(), 0);
+  EXPECT_LT(ticksTo(floor, fleet, 300, 2 * kQueues), 120);
 }
 
 TEST(Epibt, DrivesAroundOneThatRestsWhereItWasToGo) {
