@@ -21,7 +21,6 @@ from warehouse_fleet.transports.towing import TowOrder
 from warehouse_fleet.transports.unit_map import UnitPoses
 from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.floor_plan import FloorPlan
-from warehouse_layout.floor.landings import Landings
 from warehouse_layout.message_enums import EventKind
 
 UPDATE = 0.1  # time between two updates [s]
@@ -58,8 +57,6 @@ class FleetDriver:
         self.world = world
         self.plan = plan or plan_reader.of_world(world)
         self.plan.check(obstructed=False)
-        if self.plan.elevators:
-            Landings(self.plan).check()
         self.controller = FleetController(
             self.plan,
             world.fleet.kiva_id,

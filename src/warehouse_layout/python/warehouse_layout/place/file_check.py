@@ -64,8 +64,6 @@ def _spacing_faults(file: LayoutFile) -> list[Fault]:
 def _landing_faults(file: LayoutFile, plan: FloorPlan) -> list[Fault]:
     """Returns why robots with bodies could not come to the elevators, or past them; [] if they
     can."""
-    if not plan.elevators:
-        return []
     try:
         Landings(plan).check()
     except FloorError as error:
