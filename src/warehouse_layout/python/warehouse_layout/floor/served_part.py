@@ -12,6 +12,7 @@ import numpy as np
 
 from warehouse_layout._core import FloorError, layout_faults
 from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor.stations import cell_steps
 
 NAMED = 10  # places that are named in a sentence, at most
 
@@ -90,7 +91,7 @@ def with_ways_back(plan: FloorPlan) -> tuple[FloorPlan, np.ndarray]:
     gone = plan.exits & ~part.exits
     steps = [
         np.column_stack([cells, cells + step])
-        for heading, step in enumerate((1, plan.width, -1, -plan.width))
+        for heading, step in enumerate(cell_steps(plan.width))
         for cells in [np.flatnonzero(gone >> heading & 1)]
     ]
     return part, np.concatenate(steps)
@@ -99,7 +100,7 @@ def with_ways_back(plan: FloorPlan) -> tuple[FloorPlan, np.ndarray]:
 def _cut(exits: np.ndarray, edges: np.ndarray, width: int) -> None:
     """Removes the edges (n, 2), each from a cell to another one, from `exits`. Of a street that is
     one-way beyond a cell, only the way against that is among them: the street itself stays."""
-    steps = (1, width, -1, -width)
+    steps = cell_steps(width)
     for cell, after in edges.tolist():
         exits.flat[cell] &= ~np.uint8(1 << steps.index(after - cell))
 
