@@ -236,7 +236,7 @@ class Operations(unittest.TestCase):
         self.assertEqual(check.faults(engine), [])
 
     def until_all_are_complete(self, engine, orders):
-        """By the database: what a node publishes before it knows of a subscriber is not heard. What
+        """Asks the database: what a node publishes before it knows a subscriber is not heard. What
         is heard comes once."""
         wait_until(lambda: completed(engine, orders) == len(orders), "all orders complete", LONG)
         for order in orders:

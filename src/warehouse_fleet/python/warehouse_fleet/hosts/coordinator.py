@@ -25,7 +25,7 @@ from warehouse_fleet.robots.robot_table import reports_of
 from warehouse_layout import FloorError
 from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.floor_plan import FloorPlan
-from warehouse_layout.floor.served_part import LeftOut, served_part
+from warehouse_layout.floor.served_part import LeftOut, not_driven, served_part
 from warehouse_layout.message_enums import RobotMode
 from warehouse_msgs.msg import (
     Cancel,
@@ -286,7 +286,8 @@ class CoordinatorNode:
         if units is not None:
             transports.update_units(units)
         self._left_out = self._leave_out(whole, left_out, reports)
-        for reason in (*self.controller.plan.without_lane, self._left_out):
+        steps = not_driven(whole, left_out.steps)
+        for reason in (*self.controller.plan.without_lane, self._left_out, steps):
             self._warn_once(reason)
         if self._demand == "random":
             self._random = RandomTransports(transports, self._seed, self._exchange)
