@@ -5,18 +5,44 @@
 import unittest
 
 import numpy as np
+import rosgraph
 import rospy
 import rostest
 from nav_msgs.srv import GetMap
-from rostest_support.node_test import call, latched
+from rostest_support.node_test import call, latched, wait_until
 from rostest_support.warehouse_test import Collector
 
+from gazebo_msgs.srv import SetModelState, SetModelStateResponse
 from warehouse_layout.floor import plan_reader
 from warehouse_msgs.msg import CoordinatorState, Event, Scenery, TransportEvent, UnitStates
 from warehouse_msgs.srv import ReleaseTransport, Transport
 
 PATIENCE = 120.0  # [s, wall] of a transport
 UNITS = {"pick4": (1, 2), "pick2": (7, 8)}  # on the other floor, by station
+RIDER, STATION = 3, "pick4"
+SET_DOWN = "/gazebo/set_model_state"
+WHY = "a test stands there"
+TRIES = 5
+
+
+class Refusing:
+    """Answers in the world's place that no robot is set down, until it ends."""
+
+    def __init__(self):
+        self.tries, me = 0, rospy.get_name()
+        self._master = rosgraph.Master(me)
+        self._service = self._master.lookupService(SET_DOWN)
+        self._world = self._master.lookupNode("/gazebo")
+        self._refusing = rospy.Service(SET_DOWN, SetModelState, self._refuse)
+
+    def _refuse(self, _request):
+        self.tries += 1
+        return SetModelStateResponse(False, WHY)
+
+    def end(self):
+        """Has the world answer again."""
+        self._refusing.shutdown()
+        rosgraph.Master("/gazebo").registerService(SET_DOWN, self._service, self._world)
 
 
 class Elevators(unittest.TestCase):
@@ -48,6 +74,26 @@ class Elevators(unittest.TestCase):
             tier = plan.tier.flat[service]
             self.assertEqual(plan.tier.flat[cells[unit - 1]], tier, f"unit {unit}")
             self.assertTrue(call("/warehouse/release_transport", ReleaseTransport, number).success)
+        self.assert_no_contacts(events)
+
+    def test_who_is_not_set_down_is_an_alarm_until_the_world_does_it(self):
+        state = Collector("/warehouse/coordinator", CoordinatorState)
+        transports = Collector("/warehouse/transports", TransportEvent)
+        events = Collector("/warehouse/events", Event)
+        refusing = Refusing()
+        answer = call("/warehouse/transport", Transport, shelf_id=RIDER, station=STATION)
+        self.assertTrue(answer.accepted, answer.message)
+        wait_until(lambda: refusing.tries > TRIES, "it is tried again", PATIENCE)
+        (alarm,) = state.first(lambda message: message.alarms, PATIENCE).alarms
+        self.assertRegex(alarm, rf"^kiva\d does not move: it stays in its elevator \({WHY}\)$")
+        self.assertEqual({a for message in list(state.messages) for a in message.alarms}, {alarm})
+        refusing.end()
+        state.wait_for(lambda messages: not messages[-1].alarms, PATIENCE)
+        there = (answer.transport_id, TransportEvent.ARRIVED)
+        transports.first(lambda event: (event.transport_id, event.kind) == there, PATIENCE)
+        self.assert_no_contacts(events)
+
+    def assert_no_contacts(self, events):
         contacts = [e for e in list(events.messages) if e.kind == Event.COLLISION]
         self.assertEqual([f"{e.model} {e.text}" for e in contacts], [])
 

@@ -6,7 +6,7 @@ import unittest
 
 import rospy
 import rostest
-from rostest_support.node_test import Listener, call, kill, latched, pid, wait_until
+from rostest_support.node_test import Listener, call, kill, latched, pid, sends, wait_until
 from rostest_support.page_test import ask
 from sqlalchemy import func, select, update
 from std_srvs.srv import Empty
@@ -30,11 +30,13 @@ from warehouse_msgs.srv import (
     SubmitOrder,
     Transport,
 )
+from warehouse_operations.stock.orders import OrderState
 from warehouse_operations.store import check, schema
 from warehouse_operations.store.database import open_engine
 
 AUTOMATIC, MANUAL = SetStationRequest.AUTOMATIC, SetStationRequest.MANUAL
 LONG = 120.0  # [s, wall]
+EVENTS = "/warehouse/order_events"
 
 
 def submit(*lines, reference=""):
@@ -68,6 +70,14 @@ def picked(engine):
         ).scalar()
 
 
+def completed(engine, orders):
+    """How many of the orders are complete, by what the database has."""
+    row = schema.orders.c
+    is_complete = row.id.in_(orders) & (row.state == OrderState.COMPLETED)
+    with engine.connect() as connection:
+        return connection.execute(select(func.count()).where(is_complete)).scalar()
+
+
 def notices():
     return " | ".join(ask("/notices")[1].get("notices", ()))
 
@@ -77,13 +87,19 @@ def set_station(name, is_open, mode):
 
 
 class Operations(unittest.TestCase):
-    def setUp(self):
-        self.events = Listener("/warehouse/order_events", OrderEvent)
-        rospy.wait_for_service("/warehouse/submit_order", LONG)
-        wait_until(self.events.connections, "the publisher of orders", LONG)
+    @classmethod
+    def setUpClass(cls):
+        cls.events = Listener(EVENTS, OrderEvent)
 
-    def tearDown(self):
-        self.events.close()
+    def setUp(self):
+        rospy.wait_for_service("/warehouse/submit_order", LONG)
+        self.until_it_tells()
+
+    def until_it_tells(self):
+        """Until events of orders go to this test: its subscriber counts a publisher before that one
+        knows of it."""
+        me = rospy.get_name()
+        wait_until(lambda: sends("/operations", me, EVENTS), "the publisher of orders", LONG)
 
     def events_of(self, order_id, kind):
         return [e for e in self.events.messages if (e.order_id, e.kind) == (order_id, kind)]
@@ -165,8 +181,8 @@ class Operations(unittest.TestCase):
         asked = []
         # It can't have kept all that it had asked for.
         kill("/operations", lambda: asked.append(bring_a_unit("pick1")))
-        wait_until(lambda: all(self.is_complete(o) for o in orders), "all orders complete", LONG)
         engine = open_engine(rospy.get_param("~database"))
+        self.until_all_are_complete(engine, orders)
         self.assertEqual(check.faults(engine), [])
         wait_until(
             lambda: any(
@@ -189,11 +205,11 @@ class Operations(unittest.TestCase):
         before, node = rospy.get_time(), pid("/operations")
         call("/gazebo/reset_simulation", Empty)
         wait_until(lambda: rospy.get_time() < before, "time goes back")
-        wait_until(lambda: all(self.is_complete(o) for o in orders), "all orders complete", LONG)
+        engine = open_engine(rospy.get_param("~database"))
+        self.until_all_are_complete(engine, orders)
         self.assertEqual(pid("/operations"), node)
         throughput = latched("/warehouse/throughput", Throughput)
         self.assertLessEqual(throughput.end, rospy.get_time())
-        engine = open_engine(rospy.get_param("~database"))
         self.assertEqual(check.faults(engine), [])
 
     def test_7_what_it_can_not_take_is_refused_or_told_and_it_goes_on(self):
@@ -219,10 +235,12 @@ class Operations(unittest.TestCase):
         self.wait_for(order.order_id, OrderEvent.COMPLETED)
         self.assertEqual(check.faults(engine), [])
 
-    def is_complete(self, order_id):
-        completions = self.events_of(order_id, OrderEvent.COMPLETED)
-        self.assertLessEqual(len(completions), 1)
-        return bool(completions)
+    def until_all_are_complete(self, engine, orders):
+        """Asks the database: what a node publishes before it knows a subscriber is not heard. What
+        is heard comes once."""
+        wait_until(lambda: completed(engine, orders) == len(orders), "all orders complete", LONG)
+        for order in orders:
+            self.assertLessEqual(len(self.events_of(order, OrderEvent.COMPLETED)), 1)
 
 
 if __name__ == "__main__":

@@ -30,6 +30,27 @@ def faults(*lines, **more):
 RIGHT, UP, LEFT, DOWN = 1, 2, 4, 8
 
 
+def test_a_step_against_a_one_way_street_is_a_remark():
+    for rows, step in (
+        ((">..v", "^ssv", "^<<<"), "[2, 2] to [1, 2]"),
+        ((">>>v", "^ssv", "^-<<"), "[0, 0] to [1, 0]"),
+    ):
+        file = drawn(*rows, more="robots: 0\n")
+        assert file_check.faults(file) == []
+        (remark,) = file_check.remarks(file)
+        assert remark == (
+            f"robots with bodies do not drive from {step}: they could only come back the same way"
+            " there, against others"
+        )
+    for rows in ((">>>v", "^ssv", "^<<<"), ("....", ".ss.", "....")):
+        assert file_check.remarks(drawn(*rows, more="robots: 0\n")) == []
+
+
+def test_a_street_that_ends_is_a_fault_and_no_remark():
+    file = drawn(">..v.", "^ssv#", "^<<<#", more="robots: 0\n")
+    assert file_check.faults(file) and file_check.remarks(file) == []
+
+
 def test_a_one_way_street_is_left_ahead_alone():
     assert exits(".>.")[0, 1] & (RIGHT | LEFT) == RIGHT
     assert exits(".<.")[0, 1] & (RIGHT | LEFT) == LEFT

@@ -11,7 +11,7 @@ from warehouse_fleet.transports.transports import Transports
 from warehouse_layout import FloorError
 from warehouse_layout.floor.floor_edges import FloorEdges
 from warehouse_layout.floor.floor_plan import PICK, FloorPlan, Station
-from warehouse_layout.floor.served_part import served_part, with_ways_back
+from warehouse_layout.floor.served_part import not_driven, served_part, with_ways_back
 
 EVERY_WAY = 0b1111
 
@@ -91,6 +91,9 @@ def test_a_way_against_a_one_way_street_is_left_out_alone():
     assert left_out.cells.tolist() == [] and part.exits[1, 3] == 2 | 4
     same, steps = with_ways_back(plan)
     assert steps.tolist() == [[7, 3]] and (same.exits == part.exits).all()
+    assert left_out.steps.tolist() == [[7, 3]]
+    sentence = "robots with bodies do not drive from (3, 1) to (3, 0): they could only come back"
+    assert not_driven(plan, steps).startswith(sentence) and not not_driven(plan, steps[:0])
 
 
 def test_a_floor_of_which_some_is_left_out_stays_as_it_is():

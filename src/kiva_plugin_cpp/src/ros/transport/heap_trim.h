@@ -4,7 +4,7 @@
 #include <malloc.h>
 #include <ros/ros.h>
 
-#include <cstddef>
+#include "ros/transport/steady_use.h"
 
 namespace kiva_ros {
 
@@ -20,24 +20,20 @@ class HeapTrim {
             false)) {}
   /// Trims the heap once what is in use stays the same, as it does with queues that are empty.
   void whenSteady() {
-    used_ = 0;
+    use_.restart();
     timer_.start();
   }
 
  private:
-  static constexpr double kLook = 2;           // [s, wall] from one look to the next
-  static constexpr std::size_t kSteady = 100;  // memory is steady if it changes by at most 1/100
+  static constexpr double kLook = 2;  // [s, wall] from one look to the next
 
   void look() {
-    const std::size_t before = used_;
-    used_ = mallinfo2().uordblks;
-    const std::size_t change = used_ > before ? used_ - before : before - used_;
-    if (change > used_ / kSteady) return;
+    if (!use_.isSteadyAt(mallinfo2().uordblks)) return;
     timer_.stop();
     malloc_trim(0);
   }
 
-  std::size_t used_ = 0;  ///< At the last look [bytes].
+  SteadyUse use_;
   ros::WallTimer timer_;
 };
 

@@ -17,16 +17,15 @@ from warehouse_fleet.hosts.coordinator_messages import (
 from warehouse_fleet.hosts.coordinator_services import CoordinatorServices, check_mode
 from warehouse_fleet.hosts.event_publisher import EventPublisher
 from warehouse_fleet.hosts.random_transports import RandomTransports
+from warehouse_fleet.hosts.riders import Riders
 from warehouse_fleet.hosts.warehouse_watch import WarehouseWatch, is_same_floor, request_map
 from warehouse_fleet.hosts.zone_keeper import ZoneKeeper
 from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_fleet.robots.robot_table import reports_of
-from warehouse_fleet.traffic.elevators import Move
 from warehouse_layout import FloorError
 from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.floor_plan import FloorPlan
-from warehouse_layout.floor.landings import Landings
-from warehouse_layout.floor.served_part import LeftOut, served_part
+from warehouse_layout.floor.served_part import LeftOut, not_driven, served_part
 from warehouse_layout.message_enums import RobotMode
 from warehouse_msgs.msg import (
     Cancel,
@@ -83,7 +82,7 @@ class CoordinatorNode:
         self._paths = publish("warehouse/coordinator_paths", CoordinatorPaths, queue_size=1)
         self._keep_mode = rospy.ServiceProxy("gazebo/keep_robot_mode", KeepRobotMode)
         self._services = CoordinatorServices(self)
-        self._riders: list[Move] = []  # that the world has not set down yet
+        self._riders = Riders(lambda m: self._services.set_down(m, self.yaw_of(m.kiva_id)))
         self._zones = ZoneKeeper(self)
         self._watch = WarehouseWatch()
         self._watch.begin()
@@ -143,7 +142,9 @@ class CoordinatorNode:
             self._paths.publish(paths_message(controller))
         if state_is_due:
             self._next_state = time + STATE_PERIOD
-            self._state.publish(state_message(controller, watch, self._timeline, self._left_out))
+            state = state_message(controller, watch, self._timeline, self._left_out)
+            state.alarms += self._riders.alarms
+            self._state.publish(state)
             self.events.fail_abandoned(time)
 
     # --- orders and events
@@ -156,18 +157,8 @@ class CoordinatorNode:
             for lift in decision.lifts
         ]
         self._send(orders, decision.cancels)
-        self._set_down([*self._riders, *decision.moves])
-
-    def _set_down(self, moves: list[Move]) -> None:
-        """Has the world set robots down that have ridden an elevator; tries again with the next
-        reports where it does not."""
-        self._riders = []
-        for move in moves:
-            if move.kiva_id not in self._watch.fleet.kiva_id:
-                continue  # it was deleted
-            if why := self._services.set_down(move, self.yaw_of(move.kiva_id)):
-                rospy.logwarn_throttle(10, f"kiva{move.kiva_id} stays in its elevator: {why}")
-                self._riders.append(move)
+        for alarm in self._riders.advance(decision.moves, self._watch.fleet.kiva_id):
+            rospy.logwarn(alarm)
 
     def _send(self, orders: FleetOrders, cancels: list[int]) -> None:
         orders.cancels = [Cancel(kiva_id) for kiva_id in cancels]
@@ -254,7 +245,7 @@ class CoordinatorNode:
         if self.controller is not None:
             self.controller.close()
         self.controller = self._random = None
-        self._riders = []
+        self._riders.forget()
         self._watch.take_refused()
         self._watch.take_rejected()
         try:
@@ -263,13 +254,19 @@ class CoordinatorNode:
                 return  # the floor is being built
             whole = plan_reader.of_messages(grid, self._watch.scenery)
             plan, left_out = served_part(whole)
-            if plan.elevators:
-                Landings(plan).check()
+            controller = self._controller_for(plan, time)
         except (rospy.ServiceException, FloorError) as error:
             self._give_up(str(error))
             return
         self._alarm = ""
-        self.controller = FleetController(
+        self.controller = controller
+        self.controller.robots.mode[:] = self._kept = reports["mode"].copy()
+        self.events.begin()
+        self._begin_transports(whole, left_out, reports)
+        self._zones.begin(self.controller, time)
+
+    def _controller_for(self, plan: FloorPlan, time: float) -> FleetController:
+        return FleetController(
             plan,
             self._ids,
             _measured(),
@@ -281,10 +278,6 @@ class CoordinatorNode:
             lag=LAG,
             threads=self._threads,
         )
-        self.controller.robots.mode[:] = self._kept = reports["mode"].copy()
-        self.events.begin()
-        self._begin_transports(whole, left_out, reports)
-        self._zones.begin(self.controller, time)
 
     def _begin_transports(self, whole: FloorPlan, left_out: LeftOut, reports: np.ndarray) -> None:
         transports = self.controller.transports
@@ -293,7 +286,8 @@ class CoordinatorNode:
         if units is not None:
             transports.update_units(units)
         self._left_out = self._leave_out(whole, left_out, reports)
-        for reason in (*self.controller.plan.without_lane, self._left_out):
+        steps = not_driven(whole, left_out.steps)
+        for reason in (*self.controller.plan.without_lane, self._left_out, steps):
             self._warn_once(reason)
         if self._demand == "random":
             self._random = RandomTransports(transports, self._seed, self._exchange)

@@ -19,9 +19,10 @@ from warehouse_fleet.traffic.elevators import Move
 from warehouse_fleet.traffic.people import PeopleLog, people_in
 from warehouse_fleet.transports.towing import TowOrder
 from warehouse_fleet.transports.unit_map import UnitPoses
+from warehouse_layout import FloorError
 from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.floor_plan import FloorPlan
-from warehouse_layout.floor.landings import Landings
+from warehouse_layout.floor.served_part import with_ways_back
 from warehouse_layout.message_enums import EventKind
 
 UPDATE = 0.1  # time between two updates [s]
@@ -32,6 +33,19 @@ COLLISION, REFUSED = int(EventKind.COLLISION), int(EventKind.REFUSED)
 def square(yaw: float) -> float:
     """Returns the nearest heading along an axis [rad]."""
     return round(yaw / (np.pi / 2)) * np.pi / 2
+
+
+def _driven(plan: FloorPlan) -> FloorPlan:
+    """Returns the plan without the steps that robots with bodies leave out. Raises FloorError where
+    they could come to a deadlock."""
+    try:
+        plan.check(obstructed=False)
+    except FloorError:
+        part, steps = with_ways_back(plan)
+        if not len(steps):
+            raise
+        return part
+    return plan
 
 
 class FleetDriver:
@@ -56,10 +70,7 @@ class FleetDriver:
         takes_over_at: float | None = None,
     ) -> None:
         self.world = world
-        self.plan = plan or plan_reader.of_world(world)
-        self.plan.check(obstructed=False)
-        if self.plan.elevators:
-            Landings(self.plan).check()
+        self.plan = _driven(plan or plan_reader.of_world(world))
         self.controller = FleetController(
             self.plan,
             world.fleet.kiva_id,

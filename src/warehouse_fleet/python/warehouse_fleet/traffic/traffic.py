@@ -59,7 +59,8 @@ class Traffic:
 
     `latency` [s] passes from a report until what is released for it has reached the robot. While
     the fleet `takes_over`, all robots are obstacles: paths that another coordinator sent them are
-    not over yet. For `planner`, `lag` and `threads` see PlanLoop.
+    not over yet. For `planner`, `lag` and `threads` see PlanLoop. Raises FloorError where robots
+    could not come to an elevator of the floor, or past it.
     """
 
     def __init__(
@@ -77,8 +78,9 @@ class Traffic:
     ) -> None:
         kinematics = kinematics or Kinematics()
         self.plan = plan
-        landings = Landings(plan) if plan.elevators else None
-        self.floor = plan.floor(lane=plan.lane | landings.lane) if landings else plan.floor()
+        landings = Landings(plan)
+        landings.check()
+        self.floor = plan.floor(lane=plan.lane | landings.lane)
         self.robots = RobotTable(kiva_ids)
         self.time = 0.0  # of the last reports [s]
         self.takes_over = False
@@ -92,7 +94,7 @@ class Traffic:
             latency=latency,
         )
         self.elevators: Elevators | None = None
-        if landings:
+        if plan.elevators:
             self.elevators = Elevators(
                 plan, landings, self.floor, self.robots, self._execution, kinematics
             )

@@ -52,6 +52,8 @@ def _check(args: argparse.Namespace) -> int:
         print(f"{args.file}: {fault.text}")
     if not faults:
         print(f"{args.file}: a fleet can work on it: {_summary(file)}")
+        for remark in file_check.remarks(file):
+            print(f"{args.file}: {remark}")
         if all(station.kind == "replenish" for station in file.stations):
             print(f"{args.file}: no order can be picked: there is no picking station")
     return BAD_FILE if faults else 0

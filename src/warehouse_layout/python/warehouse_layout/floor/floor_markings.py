@@ -37,8 +37,8 @@ from warehouse_layout.floor.stations import (
     QUEUE,
     REPLENISH,
     SERVICE,
-    STEPS,
     Station,
+    cell_steps,
     check_lane,
     lane_mask,
     with_lanes,
@@ -166,8 +166,7 @@ def _painted(plan: FloorPlan) -> Iterator[tuple[str, list[Rectangle]]]:
 
 
 def _painted_short_cuts(plan: FloorPlan, station: Station) -> Iterator[tuple[str, list[Rectangle]]]:
-    steps = {dx + dy * plan.width: heading for heading, (dx, dy) in zip(HEADINGS, STEPS)}
-    for step, heading in steps.items():
+    for step, heading in zip(cell_steps(plan.width), HEADINGS):
         cells = np.array([a for a, b in station.short_cuts if b - a == step], int)
         y, x = np.divmod(cells, plan.width)
         rows = np.column_stack([x, y, x, y]).tolist()
@@ -359,8 +358,7 @@ def _short_cuts(
             continue
         cell = _number(plan, where)
         beside = plan.beside([cell]).tolist()
-        dx, dy = STEPS[HEADINGS.index(heading)] if heading in HEADINGS else (0, 0)
-        to = cell + dx + dy * plan.width
+        to = cell + dict(zip(HEADINGS, cell_steps(plan.width))).get(heading, 0)
         if to == cell or to not in beside:
             raise FloorError(
                 f"floor marking '{mark.label}' at ({mark.x:g}, {mark.y:g}): short_cut with one of"

@@ -3,6 +3,7 @@
 
 from collections import deque
 from collections.abc import Iterator
+from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING
 
@@ -26,8 +27,6 @@ class Landings:
 
     def __init__(self, plan: "FloorPlan") -> None:
         self._plan = plan
-        self._edges = FloorEdges(plan.floor())
-        self._ahead = self._edges.ahead(True)
         streets = plan.passable & ~plan.storage & ~plan.parking & ~plan.lane
         self._is_street = streets.ravel()
         self.cells = [cell for elevator in plan.elevators for cell in elevator.cells]
@@ -38,6 +37,15 @@ class Landings:
         self.lane.flat[self.cells] = True
         for cells in (*self.approach.values(), *self.departure.values()):
             self.lane.flat[list(cells)] = True
+
+    @cached_property
+    def _edges(self) -> FloorEdges:
+        """The edges of the floor, which only elevators ask for."""
+        return FloorEdges(self._plan.floor())
+
+    @cached_property
+    def _ahead(self) -> np.ndarray:
+        return self._edges.ahead(True)
 
     def _before(self, cell: int) -> list[int]:
         """Returns the street cells from which a robot drives to a cell."""
@@ -77,7 +85,10 @@ class Landings:
         return [cell for cell in before if cell in approach] or before
 
     def check(self) -> None:
-        """Raises FloorError where robots could not come to an elevator, or past it."""
+        """Raises FloorError where robots could not come to an elevator, or past it; a floor without
+        elevators is right."""
+        if not self.cells:
+            return
         plan = self._plan
         for elevator in plan.elevators:
             for cell in elevator.cells:

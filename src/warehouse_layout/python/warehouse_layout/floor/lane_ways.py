@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Iterator
 
 import numpy as np
 
-from warehouse_layout.floor.stations import STEPS
+from warehouse_layout.floor.stations import STEPS, cell_steps
 
 Way = Callable[[int], list[int]]
 
@@ -38,6 +38,7 @@ class _Ways:
 
     def __init__(self, streets: np.ndarray, passable: np.ndarray, exits: np.ndarray) -> None:
         self._height, self._width = streets.shape
+        self._steps = cell_steps(self._width)
         self._streets, self._passable, self._exits = (
             array.ravel() for array in (streets, passable, exits)
         )
@@ -70,9 +71,9 @@ class _Ways:
     def _beside(self, cell: int) -> Iterator[tuple[int, int]]:
         """Yields heading and number of each cell beside one."""
         y, x = divmod(cell, self._width)
-        for heading, (dx, dy) in enumerate(STEPS):
+        for heading, ((dx, dy), step) in enumerate(zip(STEPS, self._steps)):
             if 0 <= x + dx < self._width and 0 <= y + dy < self._height:
-                yield heading, cell + dx + dy * self._width
+                yield heading, cell + step
 
     def _leads(self, cell: int, heading: int, to: int) -> bool:
         is_open = self._passable[cell] and self._passable[to]

@@ -14,6 +14,12 @@ QUEUE, SERVICE, EXIT = "queue", "service", "exit"  # the parts of a lane
 STEPS = ((1, 0), (0, 1), (-1, 0), (0, -1))  # along x and y, by heading
 
 
+def cell_steps(width: int) -> tuple[int, ...]:
+    """Returns what leads from the number of a cell to that of its neighbour, by heading, on a floor
+    of `width` cells a row."""
+    return tuple(dx + dy * width for dx, dy in STEPS)
+
+
 @dataclass(frozen=True, eq=False)
 class Station:
     """A place where units are served, on a lane from entry over service cell to exit."""
@@ -79,7 +85,7 @@ def with_lanes(exits: np.ndarray, passable: np.ndarray, stations: Iterable[Stati
         # A lane's exit does not lead into the next one.
         shut = neighbour(lane, heading) & (lane | ~neighbour(entry, heading))
         out[shut | ~neighbour(passable, heading)] &= ~np.uint8(1 << heading)
-    steps = (1, passable.shape[1], -1, -passable.shape[1])
+    steps = cell_steps(passable.shape[1])
     for station in stations:
         cells = station.cells.tolist()
         for cell, after in zip(cells, cells[1:]):
@@ -96,12 +102,11 @@ def short_cuts(
 
     streets: (h, w) bool, cells from which a lane may be entered. cells, service: as a Station has.
     """
-    width = exits.shape[1]
+    steps = cell_steps(exits.shape[1])
     place = {int(cell): index for index, cell in enumerate(cells[: service + 1])}
-    steps = [(dx + dy * width, heading) for heading, (dx, dy) in enumerate(STEPS)]
     out = []
     for cell, index in place.items():
-        for step, heading in steps:
+        for heading, step in enumerate(steps):
             before = cell - step
             if not 0 <= before < exits.size or not exits.flat[before] >> heading & 1:
                 continue

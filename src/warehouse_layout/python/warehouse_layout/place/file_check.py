@@ -12,7 +12,7 @@ from warehouse_layout.file import drawn_floor, station_lanes
 from warehouse_layout.file.layout_file import KEEP_OUT, Cell, LayoutFile, LayoutFileError
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.landings import Landings
-from warehouse_layout.floor.served_part import served_part
+from warehouse_layout.floor.served_part import served_part, steps_text, with_ways_back
 from warehouse_layout.place.placement import place, plan_of
 
 NAMED = 6  # cells that a sentence names, at most
@@ -48,6 +48,16 @@ def faults(file: LayoutFile) -> list[Fault]:
     return out
 
 
+def remarks(file: LayoutFile) -> list[str]:
+    """Returns sentences about what robots with bodies leave out where a fleet works all the same;
+    [] if that is nothing."""
+    drawn = drawn_floor.areas(file.floor)
+    stations, _ = station_lanes.of_file(file, drawn)
+    plan, steps = with_ways_back(plan_of(file, drawn, stations))
+    places = [(_named(_cells([a], plan)), _named(_cells([b], plan))) for a, b in steps.tolist()]
+    return [steps_text(steps, places)] if places else []
+
+
 def _spacing_faults(file: LayoutFile) -> list[Fault]:
     if file.spacing >= LEAST_SPACING:
         return []
@@ -64,8 +74,6 @@ def _spacing_faults(file: LayoutFile) -> list[Fault]:
 def _landing_faults(file: LayoutFile, plan: FloorPlan) -> list[Fault]:
     """Returns why robots with bodies could not come to the elevators, or past them; [] if they
     can."""
-    if not plan.elevators:
-        return []
     try:
         Landings(plan).check()
     except FloorError as error:
@@ -96,7 +104,8 @@ def lacks(file: LayoutFile) -> list[Fault]:
 
 def _floor_faults(file: LayoutFile, plan: FloorPlan) -> list[Fault]:
     out = _elevator_faults(file, plan)
-    for kind, cells in chain.from_iterable(map(layout_faults, plan.floors())):
+    driven, _ = with_ways_back(plan)
+    for kind, cells in chain.from_iterable(map(layout_faults, driven.floors())):
         numbers = np.array(cells, int)
         if not len(numbers):
             out.append(Fault("there is no street for a loaded robot: draw '.', or arrows"))

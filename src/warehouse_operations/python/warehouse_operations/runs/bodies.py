@@ -6,18 +6,16 @@ from dataclasses import replace
 import numpy as np
 
 from warehouse_layout import FloorError
+from warehouse_layout.floor import served_part
 from warehouse_layout.floor.landings import Landings
-from warehouse_layout.floor.served_part import with_ways_back
 from warehouse_layout.place import file_check
 from warehouse_operations.stock.site import Site
-
-NAMED = 6  # steps that a sentence names, at most
 
 
 def floor_for(site: Site) -> tuple[Site, np.ndarray]:
     """Returns a Site whose robots have bodies, and the steps that its floor lacks for that reason:
     see with_ways_back()."""
-    plan, steps = with_ways_back(site.plan)
+    plan, steps = served_part.with_ways_back(site.plan)
     return (replace(site, plan=plan), steps) if len(steps) else (site, steps)
 
 
@@ -25,13 +23,7 @@ def not_driven(path: str, site: Site, steps: np.ndarray) -> list[str]:
     """Returns a sentence about the steps that robots with bodies leave out."""
     if not len(steps):
         return []
-    points = np.column_stack(site.plan.point_of(steps[:NAMED].ravel())).reshape(-1, 4)
-    named = ", ".join(f"({a:g}, {b:g}) to ({c:g}, {d:g})" for a, b, c, d in points)
-    more = f" and {len(steps) - NAMED} more" if len(steps) > NAMED else ""
-    return [
-        f"{path}: robots with bodies do not drive from {named}{more}: they could only come back the"
-        " same way there, against others"
-    ]
+    return [f"{path}: {served_part.not_driven(site.plan, steps)}"]
 
 
 def jams(path: str, site: Site) -> str:

@@ -10,6 +10,7 @@ failures [{kind, count, repairs, mean_repair_s}],
 lateness, date [when it was simulated], version.
 """
 
+import itertools
 import json
 import os
 from collections import Counter
@@ -70,6 +71,16 @@ def write(
     unfinished.write_text(json.dumps(run.kpis, indent=1) + "\n", encoding="utf-8")
     unfinished.replace(folder / KPIS)
     return run
+
+
+def new_folder(parent: Path) -> Path:
+    """Returns a folder in which there is no run: `shift`, or `shift-2` and so on."""
+    names = itertools.chain(["shift"], map("shift-{}".format, itertools.count(2)))
+    return next(folder for folder in map(parent.joinpath, names) if not _holds_run(folder))
+
+
+def _holds_run(folder: Path) -> bool:
+    return any((folder / name).exists() for name in (KPIS, RUN, DATABASE))
 
 
 def read(folder: str | os.PathLike[str]) -> Run:

@@ -148,9 +148,10 @@ def remarks(description: Description) -> list[str]:
             sentences += bodies.not_driven(description.instance, site, steps)
         elif jams := bodies.jams(description.instance, for_bodies):
             sentences.append(f"{jams}; ideal robots, which pass through each other, work there")
-    if description.layout and not description.physics:
+    if description.layout:
         file = layout_choice.chosen(description.layout)
-        sentences += [f"{description.layout}: {text}" for text in _of_bodies(file)]
+        texts = file_check.remarks(file) if description.physics else _of_bodies(file)
+        sentences += [f"{description.layout}: {text}" for text in texts]
     return sentences
 
 

@@ -5,19 +5,24 @@ from typing import Any
 
 from warehouse_layout.file import drawn_floor, layout_file, station_lanes
 from warehouse_layout.file.layout_file import Cell, LayoutFile, LayoutFileError
-from warehouse_layout.place.file_check import faults
+from warehouse_layout.place.file_check import faults, remarks
 
 NAME = "layout"  # of the text, in errors
 
 
 def checked(text: str) -> dict[str, Any]:
-    """Returns {faults: [{text, cells}], lanes: {station's key: [cells]}} of a file's text."""
+    """Returns {faults: [{text, cells}], remarks: [text], lanes: {station's key: [cells]}} of a
+    file's text."""
     try:
         file = layout_file.parse(text, NAME)
     except LayoutFileError as error:
-        return {"faults": [{"text": text_of(error), "cells": []}], "lanes": {}}
+        return {"faults": [{"text": text_of(error), "cells": []}], "remarks": [], "lanes": {}}
     rows = [{"text": fault.text, "cells": fault.cells} for fault in faults(file)]
-    return {"faults": rows, "lanes": _lanes_found(file)}
+    return {
+        "faults": rows,
+        "remarks": [] if rows else remarks(file),
+        "lanes": _lanes_found(file),
+    }
 
 
 def text_of(error: LayoutFileError) -> str:

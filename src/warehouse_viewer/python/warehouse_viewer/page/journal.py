@@ -12,6 +12,7 @@ from warehouse_layout.message_enums import EventKind
 
 KEPT = 2000
 OWN = 10  # events of a model that outlast the KEPT of all
+MODELS = 4000  # whose own events are kept: models come and go as long as the page's server runs
 TROUBLES = frozenset(
     kind.name
     for kind in (
@@ -34,13 +35,15 @@ COLUMNS = ("id", "time", "kind", "command", "model", "other", "text")
 class Journal:
     """Events as dicts of COLUMNS, with a running `id`. Any thread may add, any may read.
 
-    The newest KEPT are there, and of each model the newest OWN of the kinds that OUTLAST others.
+    The newest KEPT are there, and the newest OWN of the kinds that OUTLAST others of each model:
+    of those MODELS that had one last.
     """
 
-    def __init__(self, kept: int = KEPT) -> None:
+    def __init__(self, kept: int = KEPT, models: int = MODELS) -> None:
         self._lock, self.last_id = threading.Lock(), 0
         self._events: deque[dict[str, Any]] = deque(maxlen=kept)
-        self._own: dict[str, deque[dict[str, Any]]] = {}
+        self._models = models
+        self._own: dict[str, deque[dict[str, Any]]] = {}  # the model that had one last is the last
 
     def add(self, event: dict[str, Any]) -> dict[str, Any]:
         """Adds an event with all COLUMNS but its id; returns its entry."""
@@ -50,8 +53,15 @@ class Journal:
             self._events.append(entry)
             if event["kind"] in OUTLAST:
                 for name in {event["model"], event["other"]} - {""}:
-                    self._own.setdefault(name, deque(maxlen=OWN)).append(entry)
+                    self._keep_own(name, entry)
             return entry
+
+    def _keep_own(self, name: str, entry: dict[str, Any]) -> None:
+        own = self._own.pop(name, deque(maxlen=OWN))
+        own.append(entry)
+        self._own[name] = own
+        if len(self._own) > self._models:
+            del self._own[next(iter(self._own))]
 
     def since(
         self, number: int, model: str | None = None, limit: int = KEPT

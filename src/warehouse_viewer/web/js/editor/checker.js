@@ -39,19 +39,19 @@ export class Checker {
 
   async take(drawing) {
     if (!drawing.bounds()) {
-      this.show([], {});
+      this.show([], [], {});
       return;
     }
     const { text, origin: [left, bottom] } = textOf(drawing);
-    const { faults, lanes } = await ask('POST', '/check', { text });
+    const { faults, remarks, lanes } = await ask('POST', '/check', { text });
     const moved = (cells) => cells.map(([column, row]) => [column + left, row + bottom]);
-    this.show(faults.map((f) => ({ text: f.text, cells: moved(f.cells) })),
+    this.show(faults.map((f) => ({ text: f.text, cells: moved(f.cells) })), remarks,
       Object.fromEntries(Object.entries(lanes).map(([key, cells]) => [key, moved(cells)])));
   }
 
-  show(faults, lanesFound) {
+  show(faults, remarks, lanesFound) {
     Object.assign(this.editor, { faults, lanesFound });
-    $('faults-state').textContent = !this.editor.bounds ? tr`nothing drawn yet` : faults.length ? '' : tr`none`;
+    $('faults-state').textContent = !this.editor.bounds ? tr`nothing drawn yet` : faults.length ? '' : remarks.join('; ') || tr`none`;
     $('faults-count').textContent = faults.length || '';
     $('faults').replaceChildren(...faults.slice(0, MOST).map((fault) => (
       make('li', {}, make('button', { type: 'button', textContent: fault.text, click: () => this.editor.showCells(fault.cells) })))));

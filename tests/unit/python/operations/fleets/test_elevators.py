@@ -13,10 +13,13 @@ from test_ideal_lifts import services, units_by_tier
 from warehouse_fleet.hosts.fleet_driver import UPDATE, FleetDriver
 from warehouse_fleet.robots.robot_table import NOWHERE
 from warehouse_fleet.traffic.elevators import Phase
+from warehouse_fleet.traffic.traffic import Traffic
 from warehouse_fleet.transports.transports import STAY, Kind
 from warehouse_layout import FloorError
 from warehouse_layout.file import layout_file
+from warehouse_layout.floor import landings
 from warehouse_layout.floor.elevators import Elevator
+from warehouse_layout.floor.floor_edges import FloorEdges
 from warehouse_layout.floor.landings import Landings
 from warehouse_layout.message_enums import FailureKind
 from warehouse_layout.place import file_check
@@ -230,12 +233,12 @@ def test_an_elevator_of_a_layout_in_the_only_street_is_a_fault():
 def test_the_cells_before_an_elevator(tmp_path):
     """Its lane is its queue; the cell that leads in is its gate."""
     plan = read_instance(write_tiers_instance(tmp_path / "a.xinst")).plan
-    landings = Landings(plan)
-    landings.check()
+    there = Landings(plan)
+    there.check()
     for cell in plan.elevators[0].cells:
-        steps = sorted(landings.approach[cell].values())
-        assert steps == [1, 2, 3, 4] and landings.gates[cell] == [cell + 1]
-        assert landings.lane.flat[[cell, cell + 1, cell + 4]].all()
+        steps = sorted(there.approach[cell].values())
+        assert steps == [1, 2, 3, 4] and there.gates[cell] == [cell + 1]
+        assert there.lane.flat[[cell, cell + 1, cell + 4]].all()
 
 
 def test_an_elevator_in_the_only_street_is_refused(tmp_path):
@@ -244,10 +247,16 @@ def test_an_elevator_in_the_only_street_is_refused(tmp_path):
     first, second = plan.elevators[0].cells
     streets = np.flatnonzero(plan.passable & ~plan.storage & ~plan.lane & (plan.tier == 0))
     moved = (Elevator.evenly("lift", (int(streets[0]), second), RIDE),)
-    landings = Landings(type(plan)(**{**vars_of(plan), "elevators": moved}))
-    with pytest.raises(FloorError, match="do not ride, and have no other way|no street leads"):
-        landings.check()
+    floor = replace(plan, elevators=moved)
+    for check in (Landings(floor).check, lambda: Traffic(floor, np.array([1]))):
+        with pytest.raises(FloorError, match="do not ride, and have no other way|no street leads"):
+            check()
 
 
-def vars_of(plan):
-    return {name: getattr(plan, name) for name in plan.__dataclass_fields__}
+def test_a_floor_without_elevators_is_not_searched(tmp_path, monkeypatch):
+    plan = replace(read_instance(write_tiers_instance(tmp_path / "a.xinst")).plan, elevators=())
+    monkeypatch.setattr(FloorEdges, "ahead", lambda *_: pytest.fail("it reads the floor's edges"))
+    monkeypatch.setattr(landings, "layout_faults", lambda _: pytest.fail("it checks the streets"))
+    cells = Landings(plan)
+    cells.check()
+    assert not cells.lane.any()

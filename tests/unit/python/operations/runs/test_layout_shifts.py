@@ -2,6 +2,7 @@
 """Shifts in warehouses of layout files: stations, policies and stock are those of the file."""
 
 import threading
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -145,6 +146,24 @@ def test_a_second_run_into_a_folder_leaves_the_first_alone(tmp_path):
     first.join()
     assert runs.read(tmp_path).kpis["robots"] == 3
     assert InUseError in simulation.ERRORS
+
+
+def test_a_step_from_which_robots_could_only_come_back_is_left_out(tmp_path):
+    """What runs with bodies is what the check allows: it names the step."""
+    text = Path(NORTH).read_text(encoding="utf-8").replace("{stock: north.csv}", "40")
+    rows = text.rpartition("  #..................#\n")
+    path = tmp_path / "one_way.layout.yaml"
+    path.write_text(f"{rows[0]}  #^<<<<..<<<<.......#\n{rows[2]}", encoding="utf-8")
+    assert file_check.faults(layout_file.read(path)) == []
+    described = Description(size="", layout=str(path), seconds=600)
+    (remark,) = simulation.remarks(described)
+    assert remark.startswith(f"{path}: robots with bodies do not drive from [6, 1] to [7, 1], ")
+    assert simulation.remarks(replace(described, physics=False)) == []
+    with open_operations(described) as ops:
+        assert ops.site.plan.exits[1, 6] & 1 and not ops.fleet.plan.exits[1, 6] & 1
+    run, faults = simulate(described, tmp_path / "out")
+    assert faults == [] and run.kpis["items_picked"] > 20
+    assert [run.kpis[name] for name in ("collisions", "blocked", "watchdog")] == [0, 0, 0]
 
 
 def test_ideal_robots_work_where_the_check_says_so(tmp_path):

@@ -58,7 +58,15 @@ def test_the_page_is_served():
 
 
 def test_a_good_layout_has_no_faults():
-    assert ask("/layout/check", {"text": SMALL}) == (200, {"faults": [], "lanes": {}})
+    assert ask("/layout/check", {"text": SMALL}) == (200, {"faults": [], "remarks": [], "lanes": {}})
+
+
+def test_what_robots_leave_out_is_a_remark():
+    text = SMALL[: SMALL.index("floor:")] + "floor: |2\n  >..v\n  ^ssv\n  ^<<<\nrobots: 0\n"
+    status, answer = ask("/layout/check", {"text": text})
+    (remark,) = answer["remarks"]
+    assert (status, answer["faults"]) == (200, [])
+    assert remark.startswith("robots with bodies do not drive from [2, 2] to [1, 2]: ")
 
 
 def test_faults_have_sentences_and_cells():

@@ -140,6 +140,22 @@ def test_events_come_once():
     asyncio.run(scenario())
 
 
+def test_the_journal_forgets_the_models_that_had_no_trouble_for_longest():
+    """Robots and units of a thousand warehouses have names, and most of them are gone."""
+    journal = Journal(kept=2, models=3)
+    for number in (1, 2, 3, 1, *range(4, 400), 1, 400):
+        journal.add(
+            catalogue.event(Event(kind=Event.BLOCKED, model=f"kiva{number}", other=f"wall{number}"))
+        )
+        assert len(journal._own) <= 3
+    assert [e["id"] for e in journal.since(0, "kiva399")] == []
+    assert [e["model"] for e in journal.since(0, "kiva1")] == ["kiva1"]
+    journal = Journal(kept=2, models=3)
+    for number in (1, 2, 3, 1, 4):
+        journal.add(catalogue.event(Event(kind=Event.BLOCKED, model=f"kiva{number}")))
+    assert [len(journal.since(0, f"kiva{number}")) for number in (1, 2, 3, 4)] == [2, 0, 1, 1]
+
+
 def test_the_journal_keeps_the_last():
     journal = Journal(kept=3)
     for kind in (Event.ACCEPTED, Event.DONE, Event.ACCEPTED, Event.BLOCKED):

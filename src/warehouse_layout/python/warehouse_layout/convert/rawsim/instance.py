@@ -24,8 +24,8 @@ from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.stations import (
     PICK,
     REPLENISH,
-    STEPS,
     Station,
+    cell_steps,
     lane_mask,
     short_cuts,
 )
@@ -128,7 +128,7 @@ def _paths(
 ) -> np.ndarray:
     exits = np.zeros((grid.height, grid.width), np.uint8)
     rides = {(start, end) for elevator in elevators for start, end, _ in elevator.rides()}
-    headings = {dx + dy * grid.width: heading for heading, (dx, dy) in enumerate(STEPS)}
+    headings = {step: heading for heading, step in enumerate(cell_steps(grid.width))}
     for number, waypoint in waypoints.items():
         cell = grid.cell[number]
         for other in waypoint.paths:
