@@ -58,7 +58,10 @@ def test_the_page_is_served():
 
 
 def test_a_good_layout_has_no_faults():
-    assert ask("/layout/check", {"text": SMALL}) == (200, {"faults": [], "remarks": [], "lanes": {}})
+    assert ask("/layout/check", {"text": SMALL}) == (
+        200,
+        {"faults": [], "remarks": [], "lanes": {}},
+    )
 
 
 def test_what_robots_leave_out_is_a_remark():
