@@ -94,8 +94,8 @@ void MakingWay::measure(const Candidates& candidates, const Wish& wish, Progress
   }
 }
 
-/// Runs one step of priority inheritance, starting from this robot. Returns the number of cells that
-/// it tried.
+/// Runs one step of priority inheritance, starting from this robot. Returns the number of cells
+/// that it tried.
 int MakingWay::press(int robot, const Candidates& candidates, const std::vector<Wish>& wishes) {
   chain_.clear();
   is_asked_.assign(wishes.size(), 0);
