@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Planners of users, in Python and in C++, and the check of their plans."""
+"""Planners of users, in Python and in C++, the check of their plans, and how long plans took."""
 
 import sys
 
@@ -8,6 +8,7 @@ import pytest
 from paths import ROOT
 
 from warehouse_fleet import Action, Fleet, Rules, epibt, validate
+from warehouse_fleet.planners.plan_times import PlanTimes
 from warehouse_fleet.planners.planner_plugins import (
     PlannerError,
     PlanRefusedError,
@@ -135,3 +136,22 @@ def test_arrays_in_and_out(floor):
     with pytest.raises(FloorError, match="robot 0 has heading 7; 0 to 3 was expected"):
         epibt(floor).plan(Fleet([3], [7], [0]))
     assert floor.edges().shape == (24, 4) and floor.edges()[0].tolist() == [1, 6, -1, -1]
+
+
+def test_times_are_kept_from_the_oldest_to_the_newest():
+    times = PlanTimes(kept=3)
+    assert not times and times.all().tolist() == []
+    for count, kept in ((2, [0, 1]), (3, [0, 1, 2]), (5, [2, 3, 4]), (6, [3, 4, 5])):
+        while times._count < count:
+            times.append(float(times._count))
+        assert times.all().tolist() == kept
+        assert len(times) == len(kept)
+
+
+def test_a_long_shift_takes_no_more_memory():
+    times = PlanTimes()
+    before = times._times.nbytes
+    for number in range(25_000):
+        times.append(number)
+    assert times._times.nbytes == before == 8 * len(times)
+    assert times.all()[[0, -1]].tolist() == [15_000, 24_999]

@@ -74,7 +74,7 @@ def state_message(
     state.delivered, state.stored, state.failed = totals.delivered, totals.stored, totals.failed
     state.executed_over_planned = totals.executed_over_planned
     if traffic.plans.seconds:
-        spent = 1e3 * np.percentile(list(traffic.plans.seconds), (50, 99))
+        spent = 1e3 * np.percentile(traffic.plans.seconds.all(), (50, 99))
         state.plan_p50, state.plan_p99 = spent.tolist()
     state.station = list(transports.stations)
     state.queue = [transports.waiting(name) for name in state.station]

@@ -207,4 +207,4 @@ class FleetDriver:
     @property
     def plan_ms(self) -> list[float]:
         """Computing time of each plan [ms]."""
-        return [1e3 * seconds for seconds in self.traffic.plans.seconds]
+        return (1e3 * self.traffic.plans.seconds.all()).tolist()

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Plans one tick after another, on a thread of its own."""
 
-import collections
 import concurrent.futures
 import os
 import time as clock
@@ -10,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from warehouse_fleet import Execution, Planner, Rules, epibt
+from warehouse_fleet.planners.plan_times import PlanTimes
 from warehouse_fleet.planners.planner_plugins import (
     PlanRefusedError,
     ValidatedPlanner,
@@ -62,7 +62,7 @@ class PlanLoop:
         else:
             self.planner = make_planner(floor, rules, seed, planner, robot_names)
         self.refused, self.alarm = 0, ""
-        self.seconds: collections.deque[float] = collections.deque(maxlen=10000)
+        self.seconds = PlanTimes()
         self.tick, self._lag, self._attempts = tick, lag, attempts
         self._execution = execution
         self._thread = concurrent.futures.ThreadPoolExecutor(1, "planner")

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from warehouse_operations.runs.operations import Operations
 
 KPIS, RUN, DATABASE, REPORT = "kpis.json", "run.json", "run.db", "report.html"
+FOLDER = "shift"  # where nothing else is asked for
 
 
 class RunError(Exception):
@@ -74,8 +75,8 @@ def write(
 
 
 def new_folder(parent: Path) -> Path:
-    """Returns a folder in which there is no run: `shift`, or `shift-2` and so on."""
-    names = itertools.chain(["shift"], map("shift-{}".format, itertools.count(2)))
+    """Returns a folder in which there is no run: FOLDER, or FOLDER-2 and so on."""
+    names = itertools.chain([FOLDER], (f"{FOLDER}-{number}" for number in itertools.count(2)))
     return next(folder for folder in map(parent.joinpath, names) if not _holds_run(folder))
 
 

@@ -54,6 +54,7 @@ class Order:
         self.assigned = self.completed = 0.0
         self.tote = 0
         self.stored = False  # whether a journal has recorded it
+        self.assignment = 0  # the number under which a journal has its last assignment; 0: none
 
     @property
     def urgency(self) -> tuple[int, float, int]:

@@ -52,7 +52,6 @@ class DatabaseJournal(Journal):
             self._units = set(connection.execute(select(schema.unit.c.id)).scalars())
         self.run_id = self._id(schema.run)
         self._first_visit = self._next[schema.visit] - 1
-        self._assignments: dict[int, int] = {}
         self._rows.insert(
             schema.run,
             self.run_id,
@@ -202,10 +201,10 @@ class DatabaseJournal(Journal):
 
     def assigned(self, order: Order) -> None:
         """Writes the assignment of an Order to its station."""
-        key = self._assignments[order.order_id] = self._id(schema.assignment)
+        order.assignment = self._id(schema.assignment)
         self._rows.insert(
             schema.assignment,
-            key,
+            order.assignment,
             run=self.run_id,
             order_id=order.order_id,
             station=order.station,
@@ -216,7 +215,7 @@ class DatabaseJournal(Journal):
 
     def unassigned(self, order: Order, now: float) -> None:
         """Writes that a station gave an Order back unfinished."""
-        self._rows.update(schema.assignment, self._assignments.pop(order.order_id), ended=now)
+        self._rows.update(schema.assignment, order.assignment, ended=now)
         self.order(order)
 
     def visit(self, visit: Visit, pieces: int | None = None) -> None:

@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Hashable
 from typing import Any
 
-KEPT = 5000  # rows of a topic
+KEPT = 1000  # rows of a topic: what is newer than ten seconds, as far as readers may be behind
 
 
 class ChangeBook:

@@ -99,7 +99,7 @@ class Recorder:
 
     def open_chunk(self) -> Chunk | None:
         """Returns the chunk that still grows, as it is now; None if there is none."""
-        return self._open.packed(self._store.next_number(), 1) if self._open else None
+        return self._open.packed(self._store.next_number()) if self._open else None
 
     def close(self) -> None:
         """Writes what is left, and ends the recording."""

@@ -119,17 +119,17 @@ def test_simulate_check_and_report(tmp_path, instance, monkeypatch):
 def test_without_a_folder_no_run_is_written_over(tmp_path, instance):
     common = ("--instance", instance, "--no-physics", "--minutes", 2)
     done = node("simulate", *common, cwd=tmp_path)
-    assert done.returncode == 0 and "simulate: writes into shift/\n" in done.stderr, done.stderr
+    assert done.returncode == 0 and "writes into" not in done.stderr, done.stderr
     before = {path: path.read_bytes() for path in (tmp_path / "shift").iterdir()}
     for name in ("shift-2", "shift-3"):
         done = node("simulate", *common, "--seed", 2, cwd=tmp_path)
-        assert f"simulate: writes into {name}/\n" in done.stderr, done.stderr
+        assert f"simulate: shift/ has a run; writes into {name}/\n" in done.stderr, done.stderr
         assert done.stdout.endswith(f"{name}/report.html\n")
         assert json.loads((tmp_path / name / "run.json").read_text())["seed"] == 2
     assert {path: path.read_bytes() for path in (tmp_path / "shift").iterdir()} == before
     (tmp_path / "shift-2" / "kpis.json").unlink()  # as of a shift that did not end
     done = node("simulate", *common, cwd=tmp_path)
-    assert "simulate: writes into shift-4/\n" in done.stderr, done.stderr
+    assert "simulate: shift/ has a run; writes into shift-4/\n" in done.stderr, done.stderr
 
 
 def test_the_days_troubles_are_told_with_what_each_cost(tmp_path, instance):

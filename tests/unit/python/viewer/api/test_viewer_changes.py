@@ -19,7 +19,7 @@ from std_msgs.msg import Header
 
 from gazebo_msgs.msg import PerformanceMetrics
 from warehouse_msgs import msg, srv
-from warehouse_viewer.api import changes, description, operations_json
+from warehouse_viewer.api import change_book, changes, description, operations_json
 from warehouse_viewer.api.change_book import ChangeBook
 from warehouse_viewer.api.metrics import Metrics
 from warehouse_viewer.api.operations_json import QUANTILES
@@ -52,6 +52,13 @@ def test_who_reads_too_late_is_told_so():
     assert book.since("orders", 2) == ([2, 3], False)
     book.miss("orders")
     assert book.since("orders", 4) == ([], True)
+
+
+def test_a_long_day_of_orders_takes_no_more_memory_than_its_newest():
+    book = ChangeBook()
+    for number in range(3 * change_book.KEPT):
+        book.note("orders", number, number)
+    assert len(book._rows["orders"]) == change_book.KEPT <= 1000
 
 
 class Ros(FakeRos):

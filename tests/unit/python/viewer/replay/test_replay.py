@@ -28,7 +28,7 @@ from warehouse_viewer.page import protocol
 from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.replay import blocks, chunk
 from warehouse_viewer.replay.blocks import RecordingError
-from warehouse_viewer.replay.chunk import Chunk, Mark, messages, unpacked
+from warehouse_viewer.replay.chunk import Chunk, Mark, OpenChunk, messages, unpacked
 from warehouse_viewer.replay.file import NAME, FileRecording, FileWriter
 from warehouse_viewer.replay.forecasts import RecordedForecasts, asked_of
 from warehouse_viewer.replay.live import LiveRecording
@@ -272,6 +272,20 @@ def test_a_page_gets_the_index_and_chunks_as_they_lie_there(file):
     assert (refused.status, json.loads(refused.body)["detail"]) == (409, RECORDED)
 
 
+def test_a_chunk_is_compressed_while_it_grows():
+    """All of it as it came would be most of what the last hour of a large warehouse takes."""
+    growing, update = OpenChunk(0, 0.0, None), bytes(range(250)) * 160
+    for stamp in range(60):
+        growing.add_update(float(stamp), update)
+    parts = [p for kept in vars(growing).values() for p in (kept, *_members(kept))]
+    taken = sum(len(part) for part in parts if isinstance(part, bytes | bytearray))
+    assert taken <= growing.size < chunk.COMPRESSOR + len(update)
+    now = messages(unpacked(growing.packed(1).data))
+    growing.add_update(60.0, update)
+    later = messages(unpacked(growing.packed(1).data))
+    assert now == later[:-1] == [(chunk.UPDATE, float(stamp), update) for stamp in range(60)]
+
+
 def test_what_goes_on_is_played_up_to_now():
     world = World()
     live = LiveRecording(world.model, Journal(), lambda: None)
@@ -283,7 +297,11 @@ def test_what_goes_on_is_played_up_to_now():
     assert (index["live"], index["end"], len(index["chunks"])) == (True, 39.5, 2)
     data = request(_app(routes), f"/recording/chunks/{index['open']}").body
     assert messages(data)[-1][1] == 39.5
-    assert live.size == live.store.size + len(data)
+    assert 0 < live.size - live.store.size < chunk.COMPRESSOR + len(data)
+
+
+def _members(kept):
+    return kept if isinstance(kept, list | tuple) else ()
 
 
 def _app(routes):
