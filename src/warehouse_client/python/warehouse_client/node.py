@@ -6,17 +6,13 @@ from typing import Any
 
 import rospy
 
-from warehouse_client import heap
-
 # rospy's names are absolute; in a namespace, the clock and the frames are those of its world.
 OF_THE_WORLD = ("/clock:=clock", "/tf:=tf", "/tf_static:=tf_static")
 
 
 def begin(name: str, **options: Any) -> None:
-    """Calls rospy.init_node, and has the process return free memory from then on; ends in one line
-    if ROS shuts down meanwhile."""
+    """Calls rospy.init_node; ends in one line if ROS shuts down meanwhile."""
     try:
         rospy.init_node(name, argv=[*OF_THE_WORLD, *sys.argv], **options)
     except rospy.ROSInitException as error:
         sys.exit(f"{name}: {error}")
-    heap.keep_trimmed()
