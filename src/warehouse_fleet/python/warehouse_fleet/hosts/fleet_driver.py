@@ -19,7 +19,6 @@ from warehouse_fleet.traffic.elevators import Move
 from warehouse_fleet.traffic.people import PeopleLog, people_in
 from warehouse_fleet.transports.towing import TowOrder
 from warehouse_fleet.transports.unit_map import UnitPoses
-from warehouse_layout import FloorError
 from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.served_part import with_ways_back
@@ -38,14 +37,9 @@ def square(yaw: float) -> float:
 def _driven(plan: FloorPlan) -> FloorPlan:
     """Returns the plan without the steps that robots with bodies leave out. Raises FloorError where
     they could come to a deadlock."""
-    try:
-        plan.check(obstructed=False)
-    except FloorError:
-        part, steps = with_ways_back(plan)
-        if not len(steps):
-            raise
-        return part
-    return plan
+    driven, _ = with_ways_back(plan)
+    driven.check(obstructed=False)
+    return driven
 
 
 class FleetDriver:

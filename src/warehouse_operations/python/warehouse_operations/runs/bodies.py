@@ -21,9 +21,8 @@ def floor_for(site: Site) -> tuple[Site, np.ndarray]:
 
 def not_driven(path: str, site: Site, steps: np.ndarray) -> list[str]:
     """Returns a sentence about the steps that robots with bodies leave out."""
-    if not len(steps):
-        return []
-    return [f"{path}: {served_part.not_driven(site.plan, steps)}"]
+    sentence = served_part.not_driven(site.plan, steps)
+    return [f"{path}: {sentence}"] if sentence else []
 
 
 def jams(path: str, site: Site) -> str:
