@@ -10,7 +10,10 @@ from driver import CmdVelDriver
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 
+from warehouse_client.pace import PaceKeeper
+
 PERIOD = 0.05  # between two commands [s, of the robot's clock]
+LOOKAHEAD = 3 * PERIOD  # how far simulated time may pass beyond the last command [s]
 
 
 class Host:
@@ -25,6 +28,7 @@ class Host:
         self._listener = tf2_ros.TransformListener(self._frames) if map_frame else None
         self._speeds = rospy.Publisher("cmd_vel", Twist, queue_size=1, tcp_nodelay=True)
         rospy.Subscriber("odom", Odometry, self._on_odometry, queue_size=1, tcp_nodelay=True)
+        self._pace = PaceKeeper(LOOKAHEAD)  # a robot that is no simulated one does not hear it
         rospy.on_shutdown(self._stand)
         rospy.Timer(rospy.Duration(PERIOD), self._command, reset=True)
 
@@ -45,7 +49,9 @@ class Host:
         self._driver.on_odometry(stamp, pose, twist.linear.x, twist.angular.z)
 
     def _command(self, _: object) -> None:
-        self._publish(*self._driver.command(rospy.get_time(), PERIOD))
+        now = rospy.Time.now()
+        self._publish(*self._driver.command(now.to_sec(), PERIOD))
+        self._pace.acted_upon(now)
 
     def _stand(self) -> None:
         """Leaves no speed behind: many robots go on with the last command."""

@@ -19,9 +19,11 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import OccupancyGrid
 from pursuit import Point, Pose, PurePursuit, turn_to
 
+from warehouse_client.pace import PaceKeeper, wait_beyond
 from warehouse_msgs.srv import SetCmdVel
 
 RATE = 20.0  # of commands [Hz]
+LOOKAHEAD = 3 / RATE  # how far simulated time may pass beyond the last command [s]
 PATIENCE = 20.0  # time without progress after which it gives up [s]
 HALF_WIDTH = 0.34  # of a robot and a margin, beside the path [m]
 STANDS = 0.6  # time after which a robot that was asked to stop stands [s]
@@ -39,6 +41,7 @@ class Robot:
         self._frames = tf2_ros.Buffer()
         self._listener = tf2_ros.TransformListener(self._frames)
         self._speeds = rospy.Publisher(f"{name}/cmd_vel", Twist, queue_size=1, tcp_nodelay=True)
+        self._pace = PaceKeeper(LOOKAHEAD)
         rospy.on_shutdown(self.stop)
 
     def hand_over(self, enable: bool) -> None:
@@ -60,14 +63,18 @@ class Robot:
         return at.translation.x, at.translation.y, yaw
 
     def drive(self, speed: float, turn_rate: float) -> None:
-        """Asks for a speed [m/s] and a turn rate [rad/s], for half a second at most."""
-        twist = Twist()
+        """Asks for a speed [m/s] and a turn rate [rad/s], for half a second at most; returns when
+        it is time for the next."""
+        now, twist = rospy.Time.now(), Twist()
         twist.linear.x, twist.angular.z = speed, turn_rate
         self._speeds.publish(twist)
+        self._pace.acted_upon(now)
+        wait_beyond(now.to_sec(), 1 / RATE)
 
     def stop(self) -> None:
         """Asks it to stop."""
-        self.drive(0.0, 0.0)
+        self._speeds.publish(Twist())
+        self._pace.release()
 
 
 def taken(grid: OccupancyGrid, begin: Point, end: Point) -> Point | None:
@@ -99,7 +106,7 @@ def check(points: list[Point]) -> None:
 
 def follow(robot: Robot, points: list[Point]) -> None:
     """Drives along the points. Raises Failure if the robot gets no farther."""
-    pursuit, rate = PurePursuit(points), rospy.Rate(RATE)
+    pursuit = PurePursuit(points)
     left, since = math.inf, rospy.get_time()
     while not pursuit.is_done:
         robot.drive(*pursuit.command(robot.pose()))
@@ -107,16 +114,13 @@ def follow(robot: Robot, points: list[Point]) -> None:
             left, since = pursuit.left, rospy.get_time()
         if rospy.get_time() > since + PATIENCE:
             raise Failure(f"it gets no farther, {pursuit.left:.2f} m before the end")
-        rate.sleep()
 
 
 def square_up(robot: Robot) -> None:
     """Turns along the grid, and gives the robot back to it."""
     yaw = math.pi / 2 * round(robot.pose()[2] / (math.pi / 2))
-    rate = rospy.Rate(RATE)
     while turn_rate := turn_to(yaw, robot.pose()[2]):
         robot.drive(0.0, turn_rate)
-        rate.sleep()
     robot.stop()
     rospy.sleep(STANDS)
     robot.hand_over(False)

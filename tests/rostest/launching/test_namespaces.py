@@ -10,7 +10,7 @@ import rosgraph
 import rospy
 import rostest
 from rosgraph_msgs.msg import Clock
-from rostest_support.node_test import PATIENCE, Listener, call, latched, wait_until
+from rostest_support.node_test import PATIENCE, Listener, call, latched, sends, wait_until
 from std_srvs.srv import Empty
 
 from gazebo_msgs.srv import GetWorldProperties
@@ -112,8 +112,10 @@ class Namespaces(unittest.TestCase):
         topics = [rospy.Publisher(f"{n}/rot", Rotate, queue_size=1) for n in BOTH]
 
         def hears():
-            state = dict(rosgraph.Master("/test").getSystemState()[1])
-            return any("/sim2/events" in topic for topic in state.get("/sim2/warehouse/events", []))
+            topic = "/sim2/warehouse/events"
+            subscribers = dict(rosgraph.Master("/test").getSystemState()[1]).get(topic, [])
+            programs = [node for node in subscribers if node.startswith("/sim2/events")]
+            return any(sends("/sim2/gazebo", program, topic) for program in programs)
 
         wait_until(hears, "the program hears the events of /sim2")
         wait_until(lambda: all(t.get_num_connections() for t in topics), "both worlds listen")

@@ -92,6 +92,13 @@ def sends(publisher, subscriber, topic):
     return any((to, way, name) == (subscriber, "o", topic) for _, to, way, _, name, *_ in rows)
 
 
+def comes_here(topic):
+    """Whether what some node publishes on a topic from now on goes to this one."""
+    topic = rospy.resolve_name(topic)
+    publishers = dict(rosgraph.Master("/test").getSystemState()[0]).get(topic, [])
+    return any(sends(publisher, rospy.get_name(), topic) for publisher in publishers)
+
+
 def kill(node, meanwhile=lambda: None):
     """Kills a node without a chance to say goodbye, and waits for the next of that name. What is
     done meanwhile it does not see."""

@@ -11,7 +11,7 @@ import threading
 import rospy
 from geometry_msgs.msg import Point, Pose, Quaternion
 from rosgraph_msgs.msg import Log
-from rostest_support.node_test import PATIENCE, call, sends, wait_until
+from rostest_support.node_test import PATIENCE, call, comes_here, sends, wait_until
 from std_srvs.srv import Empty
 
 from gazebo_msgs.srv import DeleteModel, GetModelState, GetWorldProperties, SpawnModel
@@ -29,14 +29,15 @@ BOX = """<sdf version="1.6"><model name="box"><static>true</static><link name="l
 
 
 class Collector:
-    """Keeps all messages of a topic from the moment on when it is connected to the world."""
+    """Keeps all messages of a topic from the moment on when a publisher knows of it: a
+    subscriber knows of a publisher before that."""
 
     def __init__(self, topic, kind, connected=True):
         self.topic, self.messages = topic, []
         self._came = threading.Condition()
         self._subscriber = rospy.Subscriber(topic, kind, self._keep, tcp_nodelay=True)
         if connected:
-            wait_until(self._subscriber.get_num_connections, f"a publisher of {topic}")
+            wait_until(lambda: comes_here(topic), f"a publisher of {topic}")
 
     def _keep(self, message):
         with self._came:

@@ -22,6 +22,7 @@ from rostest_support.node_test import call, wait_until
 from rostest_support.warehouse_test import Collector, pose
 
 from gazebo_msgs.srv import SpawnModel
+from warehouse_client.pace import PaceKeeper
 from warehouse_vda5050.codec import codec_for
 from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.master.commands import Follow
@@ -71,6 +72,7 @@ class Sensors:
         self.drifting = rospy.Publisher("/bot/drifting", Odometry, queue_size=1, tcp_nodelay=True)
         self.frames = tf2_ros.TransformBroadcaster()
         self.wandered = 0.0
+        self.pace = PaceKeeper(0.1)  # the world waits for the sensors, as it does for the vehicle
         rospy.Subscriber("/bot/odom", Odometry, self.tell, queue_size=1, tcp_nodelay=True)
 
     def off(self, value):
@@ -84,6 +86,7 @@ class Sensors:
         place = self.off(at.x), self.off(at.y), self.off(yaw)
         self.publish(self.noisy, true, place, "map")
         self.drift(true, place)
+        self.pace.acted_upon(true.header.stamp)
 
     def drift(self, true, place):
         """map -> bot_odom is turned by what wandered, bot_odom -> bot_base by the same back."""

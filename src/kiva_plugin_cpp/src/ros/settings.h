@@ -32,8 +32,9 @@ namespace kiva_ros {
 ///                            (doc/explanation/realism.md); not set: what the robots' files say
 ///   ~threads                 on which a large fleet is stepped, looks ahead and scans; default 0:
 ///                            the machine's cores but one. The result is the same
-///   ~awaits                  nodes, with blanks between, for which fast time waits at its start as
-///                            if they had published on /warehouse/pace; empty (default): none
+///   ~awaits                  nodes, with blanks between, for which fast time waits at its start, a
+///                            minute at most, until each has published on /warehouse/pace; empty
+///                            (default): none
 ///   ~lockstep                true: time advances by ~step alone; default false
 ///   ~autosave                how many checkpoints to keep for /warehouse/undo, one a simulated
 ///                            second; default 0: only that before the last reset

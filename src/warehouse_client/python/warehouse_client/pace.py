@@ -29,6 +29,9 @@ class PaceKeeper:
 
     def acted_upon(self, stamp: Any) -> None:
         """Tells that this node has acted upon all it heard up to a simulated time, a rospy.Time."""
+        # Threads go on while ROS shuts down: time would wait for a node that has ended.
+        if rospy.core.is_shutdown_requested():
+            return
         self._publisher.publish(Pace(stamp, self._lookahead))
         self._is_waited_for = True
 

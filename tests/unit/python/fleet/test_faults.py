@@ -153,6 +153,21 @@ def test_a_robot_that_finds_no_way_back_is_out_of_order(calm):
     check_rates(calm, during=during, least=0.3)
 
 
+def test_a_robot_that_is_set_automatic_the_moment_it_gave_up_tries_again():
+    with Site(SEEDS[0]) as site:
+        robot = site.until(partial(pushable_off_its_point, site))[0]
+        x, y = site.world.pose(site.name(robot))[:2]
+        site.world.set_pose(site.name(robot), x + 0.3, y, 0, 0.3)
+        for number, (dx, dy) in enumerate(AROUND):
+            site.world.spawn(PILLAR, f"pillar{number}", (x + dx, y + dy, 0, 0))
+        site.until(partial(site.traffic_says, "lost", robot))
+        site.traffic.robots.mode[robot] = RobotMode.AUTOMATIC
+        for number in range(len(AROUND)):
+            site.world.delete(f"pillar{number}")
+        site.until(lambda: not site.traffic.robots.astray[robot])
+        assert site.traffic.robots.mode[robot] == RobotMode.AUTOMATIC
+
+
 def refusals_of(site, robot):
     return sum(text.startswith(f"{site.name(robot)}:") for text in site.driver.refusals)
 

@@ -7,7 +7,6 @@
 namespace kiva_ros {
 namespace {
 
-constexpr auto kMostSilence = std::chrono::seconds(10);
 constexpr double kRounding = 1e-6;  // [s], less than a step
 
 }  // namespace
@@ -15,7 +14,11 @@ constexpr double kRounding = 1e-6;  // [s], less than a step
 bool PaceLimit::Grant::holds(double time) const { return until <= time + kRounding; }
 
 void PaceLimit::allow(const std::string& node, double until, WallClock::time_point now) {
-  grants_[node] = {until, now};
+  grants_[node] = {until, now, kMostSilence};
+}
+
+void PaceLimit::await(const std::string& node, double until, WallClock::time_point now) {
+  grants_[node] = {until, now, kMostStart};
 }
 
 bool PaceLimit::holds(double time) const {
@@ -23,14 +26,15 @@ bool PaceLimit::holds(double time) const {
                      [time](const auto& entry) { return entry.second.holds(time); });
 }
 
-std::vector<std::string> PaceLimit::releaseSilent(double time, WallClock::time_point stands_since,
-                                                  WallClock::time_point now) {
-  std::vector<std::string> out;
+std::vector<PaceLimit::Silent> PaceLimit::releaseSilent(double time,
+                                                        WallClock::time_point stands_since,
+                                                        WallClock::time_point now) {
+  std::vector<Silent> out;
   for (auto it = grants_.begin(); it != grants_.end();) {
     const Grant& grant = it->second;
     const auto silent_since = std::max(grant.given_at, stands_since);
-    const bool is_silent = grant.holds(time) && now >= silent_since + kMostSilence;
-    if (is_silent) out.push_back(it->first);
+    const bool is_silent = grant.holds(time) && now >= silent_since + grant.patience;
+    if (is_silent) out.push_back({it->first, grant.patience});
     it = is_silent ? grants_.erase(it) : std::next(it);
   }
   return out;

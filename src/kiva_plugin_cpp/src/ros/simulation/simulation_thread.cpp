@@ -166,7 +166,11 @@ void SimulationThread::pause(bool paused) {
 }
 
 void SimulationThread::awaitNode(const std::string& node, double until) {
-  pace_limit_.allow(node, until, WallClock::now());
+  pace_limit_.await(node, until, WallClock::now());
+  if (pacer_.isFast()) {
+    ROS_INFO("time stands at %g s until %s has started, for %d s at most", until, node.c_str(),
+             static_cast<int>(PaceLimit::kMostStart.count()));
+  }
 }
 
 void SimulationThread::limitPace(const std::string& node, double until) {
@@ -252,11 +256,11 @@ void SimulationThread::hold() {
     held_since_ = now;
     reporter_.held(world_);
   }
-  for (const std::string& node : pace_limit_.releaseSilent(world_.time(), held_since_, now)) {
+  for (const auto& silent : pace_limit_.releaseSilent(world_.time(), held_since_, now)) {
     ROS_WARN(
-        "%s has kept simulated time waiting for 10 s at %g s: time passes without it until it "
+        "%s has kept simulated time waiting for %d s at %g s: time passes without it until it "
         "publishes on /warehouse/pace again",
-        node.c_str(), world_.time());
+        silent.node.c_str(), static_cast<int>(silent.patience.count()), world_.time());
   }
   measure(0);
 }

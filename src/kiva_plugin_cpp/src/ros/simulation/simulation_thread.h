@@ -97,7 +97,7 @@ class SimulationThread {
   void pause(bool paused);
   /// Changes the step size and the pace (as in the constructor). For the step thread.
   void retime(double step_size, double rtf);
-  /// Does as limitPace(), before start().
+  /// Has time wait for a node that is still to start, as limitPace() does. Before start().
   void awaitNode(const std::string& node, double until);
   /// Has simulated time wait for a node: it passes `until` [s] only after another call for that
   /// node. Time that passes as fast as the wall clock, or slower, waits for no one, like step().

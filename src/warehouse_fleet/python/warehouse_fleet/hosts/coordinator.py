@@ -22,6 +22,7 @@ from warehouse_fleet.hosts.warehouse_watch import WarehouseWatch, is_same_floor,
 from warehouse_fleet.hosts.zone_keeper import ZoneKeeper
 from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_fleet.robots.robot_table import reports_of
+from warehouse_fleet.transports.unit_map import UnitPoses
 from warehouse_layout import FloorError
 from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.floor_plan import FloorPlan
@@ -213,8 +214,6 @@ class CoordinatorNode:
         reports."""
         if not self._watch.is_complete(timeline) or not len(reports):
             return False  # the warehouse is still to be built
-        if self.controller is None and not self._watch.is_consistent:
-            return False
         is_same = self._is_known_floor() and timeline == self._timeline
         is_same &= bool(np.isin(reports["kiva_id"], self._ids).all())
         if is_same and self.controller is not None:
@@ -224,8 +223,11 @@ class CoordinatorNode:
                 return False
         if is_same and self._alarm:
             return False
+        units = self._watch.unit_poses()
+        if units is None:
+            return False  # else it would begin without units, and deny that there are any
         self._timeline = timeline
-        self._begin(reports, time)
+        self._begin(reports, units, time)
         return self.controller is not None
 
     def _is_known_floor(self) -> bool:
@@ -239,7 +241,7 @@ class CoordinatorNode:
             self.controller.traffic.update_map(self._watch.look_at_map())
         return True
 
-    def _begin(self, reports: np.ndarray, time: float) -> None:
+    def _begin(self, reports: np.ndarray, units: UnitPoses, time: float) -> None:
         self._plan_of, self._ids = self._watch.scenery, reports["kiva_id"].copy()
         self._next_state = self._next_paths = time
         if self.controller is not None:
@@ -262,7 +264,7 @@ class CoordinatorNode:
         self.controller = controller
         self.controller.robots.mode[:] = self._kept = reports["mode"].copy()
         self.events.begin()
-        self._begin_transports(whole, left_out, reports)
+        self._begin_transports(whole, left_out, reports, units)
         self._zones.begin(self.controller, time)
 
     def _controller_for(self, plan: FloorPlan, time: float) -> FleetController:
@@ -279,12 +281,12 @@ class CoordinatorNode:
             threads=self._threads,
         )
 
-    def _begin_transports(self, whole: FloorPlan, left_out: LeftOut, reports: np.ndarray) -> None:
+    def _begin_transports(
+        self, whole: FloorPlan, left_out: LeftOut, reports: np.ndarray, units: UnitPoses
+    ) -> None:
         transports = self.controller.transports
         transports.left_out = frozenset(left_out.stations)
-        units = self._watch.unit_poses()
-        if units is not None:
-            transports.update_units(units)
+        transports.update_units(units)
         self._left_out = self._leave_out(whole, left_out, reports)
         steps = not_driven(whole, left_out.steps)
         for reason in (*self.controller.plan.without_lane, self._left_out, steps):

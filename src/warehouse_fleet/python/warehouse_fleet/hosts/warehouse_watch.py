@@ -122,19 +122,16 @@ class WarehouseWatch:
             return False
         return self.units.timeline == timeline
 
-    @property
-    def is_consistent(self) -> bool:
-        """Whether the messages on units are of one revision; one of them may be on its way."""
-        return fit(self.objects, self.units)
-
     def unit_poses(self) -> UnitPoses | None:
-        """Returns where the units stand; None while a message is on its way."""
-        if not self.is_consistent:
+        """Returns where the units stand; None while the two messages on them are of different
+        revisions, one of them being on its way."""
+        objects, units = self.objects, self.units  # either may come meanwhile
+        if not fit(objects, units):
             return None
-        x, y, yaw = unit_poses(self.units)
-        carried = np.asarray(self.units.carrier) != 0
-        stamp = self.units.header.stamp.to_sec()
-        return UnitPoses(np.array(unit_ids(self.objects), int), x, y, yaw, carried, stamp)
+        x, y, yaw = unit_poses(units)
+        carried = np.asarray(units.carrier) != 0
+        stamp = units.header.stamp.to_sec()
+        return UnitPoses(np.array(unit_ids(objects), int), x, y, yaw, carried, stamp)
 
     def look_at_map(self) -> np.ndarray | None:
         """Returns the world's map (h, w) uint8; None, and a warning, if there is no answer."""

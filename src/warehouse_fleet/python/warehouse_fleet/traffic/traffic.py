@@ -113,6 +113,7 @@ class Traffic:
         )
         self._settled = np.zeros(len(self.robots), bool)  # has been idle since this began
         self._foreign = np.zeros(len(self.robots), np.uint8)  # reports in a row
+        self._gave_up = np.zeros(len(self.robots), bool)  # found no way back, by the last reports
         self.watchdog = Watchdog(self.robots, np.asarray(plan.lane, bool).ravel(), self.all_ahead)
         self._after = np.full(plan.passable.size, NOWHERE, np.int32)  # next cell of a lane, by cell
         for station in plan.stations:
@@ -155,17 +156,18 @@ class Traffic:
             reports["path_id"],
             reports["reached"],
             reports["left"],
-            robots.automatic & (not self.takes_over),
+            # One that gave up begins afresh, even if it was set AUTOMATIC since.
+            robots.automatic & (not self.takes_over) & ~self._gave_up,
             self._stay,
             robots.loaded,
         )
         states = execution.states()
         robots.cell, robots.stands, robots.stalled, robots.astray = states[:4]
-        lost, robots.still_since, foreign = states[4:]
+        self._gave_up, robots.still_since, foreign = states[4:]
         robots.stalled_since = np.where(
             robots.stalled, np.minimum(robots.stalled_since, time), np.inf
         )
-        robots.lost = (robots.lost & (robots.mode == OUT_OF_SERVICE)) | lost
+        robots.lost = (robots.lost & (robots.mode == OUT_OF_SERVICE)) | self._gave_up
         robots.lost &= ~robots.gone
         robots.mode[robots.lost] = OUT_OF_SERVICE
         self._find_foreign(reports, foreign)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +34,11 @@ class Entry:
     def topic(self) -> str:
         """The kind of message, with its vehicle if there are several."""
         return f"{self.vehicle}/{self.kind.value}" if self.vehicle else self.kind.value
+
+    @property
+    def stamp(self) -> datetime:
+        """The timestamp of its header. Raises ValueError."""
+        return datetime.fromisoformat(str((self.value or {}).get("timestamp")))
 
     @property
     def text(self) -> str:

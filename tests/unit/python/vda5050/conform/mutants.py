@@ -318,9 +318,15 @@ def _(value, memory):
     value["agvPosition"].pop("x")
 
 
-@json_of("visualization_late", "visualization agrees with the state", Kind.VISUALIZATION)
+@json_of("visualization_elsewhere", "visualization agrees with the state", Kind.VISUALIZATION)
 def _(value, memory):
     value["agvPosition"]["x"] += 3.0
+
+
+@json_of("visualization_stale", "visualization is of the present", Kind.VISUALIZATION)
+def _(value, memory):
+    now = value["agvPosition"]
+    value["agvPosition"], memory["before"] = memory.get("before", now), now
 
 
 # --- when states come

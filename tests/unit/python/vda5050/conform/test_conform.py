@@ -5,7 +5,7 @@ import json
 from xml.etree import ElementTree
 
 import pytest
-from paper_vehicle import PaperWire, runner_for
+from paper_vehicle import TICK, PaperWire, runner_for
 
 from warehouse_vda5050.conform.case import Case
 from warehouse_vda5050.conform.cases import CASES, cases_of
@@ -30,6 +30,25 @@ def test_our_vehicle_conforms(version):
     assert not [(r.case.id, r.reason) for r in results if r.verdict is Verdict.DIFFERS]
     others = [r.case.id for r in results if r.verdict is not Verdict.CONFORMS]
     assert others == ["connection.offline"]
+
+
+def test_what_a_busy_machine_delivers_together_is_not_taken_for_one_moment():
+    wire = PaperWire()
+    runner = runner_for(wire=wire)
+    poll, take, held = wire.poll, wire.take, []
+    wire.take = held.append
+
+    def poll_and_deliver_twice_a_second(seconds):
+        poll(seconds)
+        if wire.now() % 0.5 < TICK:
+            while held:
+                take(held.pop(0))
+
+    wire.poll = poll_and_deliver_twice_a_second
+    driven = ("order.", "update.", "progress.agreement")
+    results = [*runner.run([c for c in cases_of("2.1.0") if c.id.startswith(driven)])]
+    assert results[-1].case.id == "progress.agreement"
+    assert results[-1].verdict is Verdict.CONFORMS, results[-1].reason
 
 
 def test_each_case_has_its_own_id_and_a_section():

@@ -15,6 +15,13 @@ using Names = std::vector<std::string>;
 
 class Limit : public ::testing::Test {
  protected:
+  /// Names of the nodes that are left behind at `time` [s], which stands since `since`.
+  Names silent(double time, WallClock::time_point since, WallClock::time_point now) {
+    Names out;
+    for (const auto& silent : limit_.releaseSilent(time, since, now)) out.push_back(silent.node);
+    return out;
+  }
+
   PaceLimit limit_;
   WallClock::time_point now_{std::chrono::hours(1)};
 };
@@ -35,13 +42,23 @@ TEST_F(Limit, TimeWaitsForTheNodeThatIsFarthestBehind) {
 TEST_F(Limit, ANodeThatSaysNothingForTenSecondsIsWaitedForNoLonger) {
   limit_.allow("/fleet", 1.0, now_);
   limit_.allow("/shift", 5.0, now_);
-  EXPECT_EQ(limit_.releaseSilent(1.0, now_, now_ + seconds(9)), Names());
-  EXPECT_EQ(limit_.releaseSilent(0.5, now_, now_ + seconds(60)), Names()) << "it holds nothing up";
-  EXPECT_EQ(limit_.releaseSilent(1.0, now_ + seconds(50), now_ + seconds(59)), Names())
+  EXPECT_EQ(silent(1.0, now_, now_ + seconds(9)), Names());
+  EXPECT_EQ(silent(0.5, now_, now_ + seconds(60)), Names()) << "it holds nothing up";
+  EXPECT_EQ(silent(1.0, now_ + seconds(50), now_ + seconds(59)), Names())
       << "it may have had nothing to say before time stood still";
-  EXPECT_EQ(limit_.releaseSilent(1.0, now_, now_ + seconds(10)), Names({"/fleet"}));
+  EXPECT_EQ(silent(1.0, now_, now_ + seconds(10)), Names({"/fleet"}));
   EXPECT_FALSE(limit_.holds(4.0));
   EXPECT_TRUE(limit_.holds(5.0));
+}
+
+TEST_F(Limit, ANodeThatIsStillToStartIsWaitedForAMinute) {
+  limit_.await("/fleet", 0.1, now_);
+  EXPECT_EQ(silent(0.1, now_, now_ + seconds(59)), Names());
+  limit_.allow("/fleet", 0.4, now_ + seconds(59));
+  EXPECT_EQ(silent(0.4, now_ + seconds(59), now_ + seconds(69)), Names({"/fleet"}))
+      << "it has started";
+  limit_.await("/shift", 0.1, now_);
+  EXPECT_EQ(silent(0.1, now_, now_ + seconds(60)), Names({"/shift"}));
 }
 
 TEST_F(Limit, StepsThatRoundADecimalTimeStopAtIt) {
