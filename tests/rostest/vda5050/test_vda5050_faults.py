@@ -52,11 +52,21 @@ class Watch:
         while not (result := condition()):
             assert time.monotonic() < end, f"waited in vain: {what}; {self.states[-1:]}"
             if time.monotonic() - self._asked > ASKS:
-                self._asked = time.monotonic()
-                action = Action("stateRequest", f"s{time.time_ns()}", BlockingType.NONE)
-                self.send(Kind.INSTANT_ACTIONS, InstantActions((action,)))
+                self._ask()
             self._loop.poll(0.02)
         return result
+
+    def _ask(self):
+        """Asks for a state; returns the id of the request."""
+        self._asked = time.monotonic()
+        action = Action("stateRequest", f"s{time.time_ns()}", BlockingType.NONE)
+        self.send(Kind.INSTANT_ACTIONS, InstantActions((action,)))
+        return action.id
+
+    def answer(self):
+        """Returns a state that answers a request of now: others may have been sent before."""
+        id = self._ask()
+        return self.state(lambda s: id in {a["actionId"] for a in s["actionStates"]}, "the answer")
 
     def state(self, condition, what):
         """Returns the first state from now on for which condition(state) holds."""
@@ -108,14 +118,14 @@ class Faults(PageTest):
         self.watch.state(lambda s: not s["errors"], "a state without errors")
 
     def test_jump(self):
-        x = self.watch.some(1)[0]["agvPosition"]["x"]
+        x = self.watch.answer()["agvPosition"]["x"]
         self.begin("jump")
         self.watch.state(lambda s: abs(s["agvPosition"]["x"] - x - 2) < 0.1, "the jump")
         self.end()
         self.watch.state(lambda s: abs(s["agvPosition"]["x"] - x) < 0.1, "the place before")
 
     def test_heading(self):
-        theta = self.watch.some(1)[0]["agvPosition"]["theta"]
+        theta = self.watch.answer()["agvPosition"]["theta"]
         self.begin("heading")
 
         def turned(state):
@@ -177,7 +187,7 @@ class Faults(PageTest):
     def order(self, count):
         """Sends an order along the longest free way from where the robot stands, and back."""
         grid: Grid = grid_of(read_map())
-        at = self.watch.some(1)[0]["agvPosition"]
+        at = self.watch.answer()["agvPosition"]
         here = grid.cell_at(at["x"], at["y"])
         for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
             way = [(here[0] + k * dx, here[1] + k * dy) for k in range(count)]

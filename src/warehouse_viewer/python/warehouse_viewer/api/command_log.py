@@ -5,7 +5,6 @@ import csv
 import io
 import json
 import threading
-from collections import deque
 from collections.abc import Callable
 from datetime import UTC, datetime
 from typing import Any
@@ -14,13 +13,24 @@ from urllib.parse import unquote
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from warehouse_viewer.page.journal import cell
+from warehouse_viewer.rows import Columns, Rows
 
 KEPT = 5000  # commands
 MOST_TEXT = 300  # of a request's body
 MOST_NAME = 60
 PREFIX = "/api/v1/"
 READS = ("GET", "HEAD", "OPTIONS")
-COLUMNS = ("id", "time", "wall", "by", "address", "method", "path", "body", "status")
+COLUMNS: Columns = {
+    "id": int,
+    "time": float,
+    "wall": 29,
+    "by": 36,
+    "address": 16,
+    "method": 8,
+    "path": 40,
+    "body": 64,
+    "status": int,
+}
 PERSON = b"x-person"  # a header: the person's name, percent-encoded
 
 
@@ -29,22 +39,22 @@ class CommandLog:
 
     def __init__(self, now: Callable[[], float]) -> None:
         self._now, self._lock, self._last = now, threading.Lock(), 0
-        self._rows: deque[dict[str, Any]] = deque(maxlen=KEPT)
+        self._rows = Rows(KEPT, COLUMNS)
 
     def add(self, **fields: Any) -> None:
         """Adds a command with all COLUMNS but id and times."""
         wall = datetime.now(UTC).isoformat(timespec="milliseconds")
         with self._lock:
             self._last += 1
-            self._rows.append(
-                {"id": self._last, "time": round(self._now(), 3), "wall": wall} | fields
-            )
+            row = {"id": self._last, "time": round(self._now(), 3), "wall": wall}
+            self._rows[self._last % KEPT] = row | fields
 
     def rows(self, by: str = "", limit: int = KEPT) -> list[dict[str, Any]]:
         """Returns the newest commands, the oldest of them first; with `by` those of one person."""
         with self._lock:
-            rows = [row for row in self._rows if by in ("", row["by"])]
-        return rows[-limit:]
+            ids = range(max(0, self._last - KEPT) + 1, self._last + 1)
+            rows = [self._rows[i % KEPT] for i in ids]
+        return [row for row in rows if by in ("", row["by"])][-limit:]
 
     def csv(self) -> str:
         """Returns all commands, oldest first, for a spreadsheet."""

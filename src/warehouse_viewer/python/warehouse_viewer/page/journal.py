@@ -5,13 +5,13 @@ import csv
 import io
 import re
 import threading
-from collections import deque
 from typing import Any
 
 from warehouse_layout.message_enums import EventKind
+from warehouse_viewer.page.own_events import OwnEvents
+from warehouse_viewer.rows import Columns, Rows
 
 KEPT = 2000
-OWN = 10  # events of a model that outlast the KEPT of all
 MODELS = 4000  # whose own events are kept: models come and go as long as the page's server runs
 TROUBLES = frozenset(
     kind.name
@@ -29,39 +29,43 @@ ALARM, ALARM_OVER = "ALARM", "ALARM_OVER"  # kinds of entries that a monitor add
 OUTLAST = TROUBLES | {EventKind.REPAIRED.name, ALARM, ALARM_OVER}
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
 NUMBER = re.compile(r"[+-]?\d+(\.\d*)?\Z")
-COLUMNS = ("id", "time", "kind", "command", "model", "other", "text")
+COLUMNS: Columns = {
+    "id": int,
+    "time": float,
+    "kind": 16,
+    "command": int,
+    "model": 20,
+    "other": 20,
+    "text": 88,
+}
 
 
 class Journal:
     """Events as dicts of COLUMNS, with a running `id`. Any thread may add, any may read.
 
-    The newest KEPT are there, and the newest OWN of the kinds that OUTLAST others of each model:
-    of those MODELS that had one last.
+    The newest KEPT are there, and the newest of the kinds that OUTLAST others of each model: of
+    those MODELS that had one last.
     """
 
     def __init__(self, kept: int = KEPT, models: int = MODELS) -> None:
         self._lock, self.last_id = threading.Lock(), 0
-        self._events: deque[dict[str, Any]] = deque(maxlen=kept)
-        self._models = models
-        self._own: dict[str, deque[dict[str, Any]]] = {}  # the model that had one last is the last
+        self._events, self._own = Rows(kept, COLUMNS), OwnEvents(COLUMNS, models)
+
+    def expect(self, models: int) -> None:
+        """Takes the memory for the events of so many models, now rather than as they come."""
+        with self._lock:
+            self._own.expect(models)
 
     def add(self, event: dict[str, Any]) -> dict[str, Any]:
         """Adds an event with all COLUMNS but its id; returns its entry."""
         with self._lock:
             self.last_id += 1
             entry = event | {"id": self.last_id}
-            self._events.append(entry)
-            if event["kind"] in OUTLAST:
-                for name in {event["model"], event["other"]} - {""}:
-                    self._keep_own(name, entry)
+            self._events[self.last_id % len(self._events)] = entry
+            names = {event["model"], event["other"]} - {""}
+            if names and event["kind"] in OUTLAST:
+                self._own.add(names, entry)
             return entry
-
-    def _keep_own(self, name: str, entry: dict[str, Any]) -> None:
-        own = self._own.pop(name, deque(maxlen=OWN))
-        own.append(entry)
-        self._own[name] = own
-        if len(self._own) > self._models:
-            del self._own[next(iter(self._own))]
 
     def since(
         self, number: int, model: str | None = None, limit: int = KEPT
@@ -73,13 +77,17 @@ class Journal:
         if number >= self.last_id:
             return []
         with self._lock:
-            entries = [e for e in self._events if e["id"] > number]
-            own = () if model is None else tuple(self._own.get(model, ()))
-        if model is not None:
-            entries = [e for e in entries if model in (e["model"], e["other"])]
+            if model is None:
+                return self._newest(max(number, self.last_id - limit))
+            entries = [e for e in self._newest(number) if model in (e["model"], e["other"])]
             first = entries[0]["id"] if entries else self.last_id + 1
-            entries = [e for e in own if number < e["id"] < first] + entries
-        return entries[-limit:]
+            own = [e for e in self._own.of(model) if number < e["id"] < first]
+        return (own + entries)[-limit:]
+
+    def _newest(self, number: int) -> list[dict[str, Any]]:
+        kept = len(self._events)
+        ids = range(max(number, self.last_id - kept) + 1, self.last_id + 1)
+        return [self._events[i % kept] for i in ids]
 
     def csv(self) -> str:
         """Returns all entries, oldest first, for a spreadsheet."""

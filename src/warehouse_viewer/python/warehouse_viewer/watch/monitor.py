@@ -108,6 +108,7 @@ class Monitor:
         rows = stations.stations if stations else ()
         if stations is not self._read.get("stations") or fleet is not self._read.get("fleet"):
             self._read |= {"stations": stations, "fleet": fleet}
+            self._journal.expect(len(fleet.kiva_id) if fleet else 0)
             self.stations.update(self.now, rows, fleet)
             self._note_spans(fleet, rows)
         starved = self.stations.starved

@@ -4,8 +4,7 @@ the same on all pages, in alarms, events and the API."""
 
 from __future__ import annotations
 
-from bisect import bisect_right
-from collections import defaultdict, deque
+from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -16,11 +15,11 @@ import numpy as np
 from warehouse_client.message_names import failures_of
 from warehouse_layout.message_enums import EventKind
 from warehouse_viewer.page.activities import FAULTY
+from warehouse_viewer.watch.sentence_log import SentenceLog
 
 if TYPE_CHECKING:
     from warehouse_msgs.msg import CoordinatorState, FleetState, StationState
 
-KEPT = 60  # reasons of a robot or station that are remembered
 DOES = {
     "idle": "has no work",
     "ready": "stands beneath its unit until its station has room",
@@ -78,7 +77,7 @@ class Reasons:
     """The reasons of all robots and stations now, and what they were. One thread at a time."""
 
     def __init__(self) -> None:
-        self._now, self._past = 0.0, dict[str, deque[tuple[float, str]]]()
+        self._now, self._past = 0.0, SentenceLog()
         self._waits: dict[int, tuple[int, float, str]] = {}  # robot ahead, since, why
         self._doing: dict[int, str] = {}
         self._faults: dict[int, str] = {}
@@ -105,7 +104,7 @@ class Reasons:
         had no unit; `assigned`: the unit and the station of each robot with a transport;
         `held`: why units wait for a closed zone."""
         if now < self._now:
-            self._past, self._explained = {}, {}
+            self._past, self._explained = SentenceLog(), {}
         self._now, self._starved, self._held = now, starved, held
         self._stations = {station.name: station for station in stations}
         self._take_fleet(fleet)
@@ -304,21 +303,18 @@ class Reasons:
 
     def at(self, name: str, time: float) -> str:
         """Returns the sentence that held for a robot or station at a time [s]; else empty."""
-        past = self._past.get(name, ())
-        index = bisect_right([since for since, _ in past], time) - 1
-        return past[index][1] if index >= 0 else ""
+        return self._past.at(name, time)
 
     def _remember(self) -> None:
         """Keeps the sentences of those that wait or are at fault."""
         names = [self.robot(robot) for robot in self._waits.keys() | self._faults.keys()]
         names += [reason for name in self._stations if (reason := self.station(name))]
         sentences = {reason.name: reason.sentence for reason in names}
-        for name in sentences.keys() | self._past.keys():
-            past, text = self._past.setdefault(name, deque(maxlen=KEPT)), sentences.get(name, "")
-            if not past or past[-1][1] != text:
-                past.append((self._now, text))
+        self._past.expect(len(self._robots) + len(self._stations))
+        for name in sentences.keys() | self._past.names:
+            self._past.note(name, self._now, sentences.get(name, ""))
 
     def _since(self, name: str, text: str) -> float:
         """Returns since when a robot or station has done what it does [s]."""
-        past = self._past.get(name)
-        return past[-1][0] if past and text in past[-1][1] else self._now
+        since = self._past.since(name, text)
+        return self._now if since is None else since

@@ -213,7 +213,7 @@ def test_a_command_without_an_answer_is_pending():
 
 def test_names_are_no_formulas_in_a_spreadsheet():
     journal = Journal()
-    event = {"time": 1.5, "kind": "SPAWNED", "command": "", "other": "", "text": "-2.5"}
+    event = {"time": 1.5, "kind": "SPAWNED", "command": 0, "other": "", "text": "-2.5"}
     names = ("=1+1", "+1+1", "-1+1", "@SUM(1)", "\t=1", "\r=1", "＝1", "kiva1", "a=1", "'=1")
     for name in names:
         journal.add(event | {"model": name})
