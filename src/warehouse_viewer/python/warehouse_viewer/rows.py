@@ -28,7 +28,7 @@ class Rows:
         return len(self._rows)
 
     def grow(self, count: int) -> None:
-        """Adds so many places."""
+        """Adds `count` empty places at the end."""
         self._rows = np.concatenate((self._rows, _taken(count, self._rows.dtype)))
 
     def __setitem__(self, place: int, row: dict[str, Any]) -> None:

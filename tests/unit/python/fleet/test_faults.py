@@ -131,17 +131,11 @@ def test_a_robot_that_finds_no_way_back_is_out_of_order(calm):
     during = []
     for seed in SEEDS:
         with Site(seed) as site:
-            robot = site.until(partial(pushable_off_its_point, site))[0]
-            x, y = site.world.pose(site.name(robot))[:2]
-            site.world.set_pose(site.name(robot), x + 0.3, y, 0, 0.3)
-            for number, (dx, dy) in enumerate(AROUND):
-                site.world.spawn(PILLAR, f"pillar{number}", (x + dx, y + dy, 0, 0))
-            site.until(partial(site.traffic_says, "lost", robot))
+            robot = lost_between_pillars(site)
             asked = refusals_of(site, robot)
             assert site.traffic.robots.mode[robot] == RobotMode.OUT_OF_SERVICE
             assert site.until(partial(failed, site)) == ["its robot is OUT_OF_SERVICE now"]
-            for number in range(len(AROUND)):
-                site.world.delete(f"pillar{number}")
+            delete_pillars(site)
             during.append(site.run(WINDOW))
             assert refusals_of(site, robot) <= asked + 1  # the last one was on its way
             assert site.traffic.robots.lost[robot]
@@ -155,17 +149,28 @@ def test_a_robot_that_finds_no_way_back_is_out_of_order(calm):
 
 def test_a_robot_that_is_set_automatic_the_moment_it_gave_up_tries_again():
     with Site(SEEDS[0]) as site:
-        robot = site.until(partial(pushable_off_its_point, site))[0]
-        x, y = site.world.pose(site.name(robot))[:2]
-        site.world.set_pose(site.name(robot), x + 0.3, y, 0, 0.3)
-        for number, (dx, dy) in enumerate(AROUND):
-            site.world.spawn(PILLAR, f"pillar{number}", (x + dx, y + dy, 0, 0))
-        site.until(partial(site.traffic_says, "lost", robot))
+        robot = lost_between_pillars(site)
         site.traffic.robots.mode[robot] = RobotMode.AUTOMATIC
-        for number in range(len(AROUND)):
-            site.world.delete(f"pillar{number}")
+        delete_pillars(site)
         site.until(lambda: not site.traffic.robots.astray[robot])
         assert site.traffic.robots.mode[robot] == RobotMode.AUTOMATIC
+
+
+def lost_between_pillars(site):
+    """Pushes a robot off its point, among pillars between which it finds no way back; returns it
+    once it has given up."""
+    robot = site.until(partial(pushable_off_its_point, site))[0]
+    x, y = site.world.pose(site.name(robot))[:2]
+    site.world.set_pose(site.name(robot), x + 0.3, y, 0, 0.3)
+    for number, (dx, dy) in enumerate(AROUND):
+        site.world.spawn(PILLAR, f"pillar{number}", (x + dx, y + dy, 0, 0))
+    site.until(partial(site.traffic_says, "lost", robot))
+    return robot
+
+
+def delete_pillars(site):
+    for number in range(len(AROUND)):
+        site.world.delete(f"pillar{number}")
 
 
 def refusals_of(site, robot):

@@ -52,7 +52,7 @@ class Journal:
         self._events, self._own = Rows(kept, COLUMNS), OwnEvents(COLUMNS, models)
 
     def expect(self, models: int) -> None:
-        """Takes the memory for the events of so many models, now rather than as they come."""
+        """Allocates memory for the own events of `models` models before they come."""
         with self._lock:
             self._own.expect(models)
 

@@ -25,7 +25,7 @@ class OwnEvents:
         return len(self._places)
 
     def expect(self, models: int) -> None:
-        """Takes the memory for so many models."""
+        """Allocates rows for the entries of `models` models."""
         missing = KEPT * min(models, self._models) - len(self._rows)
         if missing > 0:
             self._grow(missing)

@@ -24,7 +24,7 @@ class SentenceLog:
         self._texts = np.full((0, KEPT), "", object)
 
     def expect(self, names: int) -> None:
-        """Takes the memory for so many names."""
+        """Allocates rows for the sentences of `names` names."""
         more = names - len(self._since)
         if more > 0:
             self._since = np.concatenate((self._since, np.full((more, KEPT), 0.0)))
