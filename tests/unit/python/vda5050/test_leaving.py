@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A connection ends after the broker's confirmation of the last message, or after a deadline."""
 
+import selectors
 import socket
 import threading
 import time
@@ -16,36 +17,46 @@ SLOW = 0.3  # time that the broker takes for a confirmation [s]
 
 
 class SlowBroker(threading.Thread):
-    """An MQTT broker for one client at a time that confirms each PUBLISH after a while; never, if
-    `answers` is None. `packets`: the type of each packet, in and out, and the time [s]."""
+    """An MQTT broker that confirms each PUBLISH after `answers` [s]; never, if that is None. It
+    reads what a client sent before it accepts another that came later. `packets`: the type of each
+    packet, in and out, and the time [s]."""
 
     def __init__(self, answers):
         super().__init__(daemon=True)
         self.answers, self.packets = answers, []
         self.listener = socket.create_server(("127.0.0.1", 0))
         self.port = self.listener.getsockname()[1]
+        self.selector = selectors.DefaultSelector()
+        self.selector.register(self.listener, selectors.EVENT_READ)
+        self.ended = threading.Event()
         self.start()
 
     def run(self):
-        while True:
-            try:
-                client, _ = self.listener.accept()
-            except OSError:
-                return
-            threading.Thread(target=self.serve, args=(client,), daemon=True).start()
+        while not self.ended.is_set():
+            ready = [key.fileobj for key, _ in self.selector.select(0.05)]
+            if ready == [self.listener]:
+                self.selector.register(self.listener.accept()[0], selectors.EVENT_READ)
+            for client in set(ready) - {self.listener}:
+                self.read(client)
 
-    def serve(self, client):
-        with client, client.makefile("rb") as stream:
-            while head := stream.read(2):
-                body = stream.read(head[1])
-                self.note(head[0] >> 4)
-                if head[0] >> 4 == CONNECT:
-                    client.sendall(b"\x20\x02\0\0")
-                elif head[0] >> 4 == PUBLISH and self.answers is not None:
-                    time.sleep(self.answers)
-                    self.note(PUBACK)
-                    topic = int.from_bytes(body[:2], "big")
-                    client.sendall(b"\x40\x02" + body[2 + topic : 4 + topic])
+    def read(self, client):
+        head = client.recv(2, socket.MSG_WAITALL)
+        if not head:
+            self.selector.unregister(client)
+            client.close()
+            return
+        body = client.recv(head[1], socket.MSG_WAITALL)
+        self.note(head[0] >> 4)
+        if head[0] >> 4 == CONNECT:
+            client.sendall(b"\x20\x02\0\0")
+        elif head[0] >> 4 == PUBLISH and self.answers is not None:
+            topic = int.from_bytes(body[:2], "big")
+            answer = b"\x40\x02" + body[2 + topic : 4 + topic]
+            threading.Timer(self.answers, self.confirm, (client, answer)).start()
+
+    def confirm(self, client, answer):
+        self.note(PUBACK)
+        client.sendall(answer)
 
     def note(self, packet):
         self.packets.append((packet, time.monotonic()))
@@ -53,12 +64,18 @@ class SlowBroker(threading.Thread):
     def types(self):
         return [packet for packet, _ in self.packets]
 
+    def close(self):
+        self.ended.set()
+        self.join()
+        self.selector.close()
+        self.listener.close()
+
 
 @pytest.fixture
 def broker(request):
     broker = SlowBroker(request.param)
     yield broker
-    broker.listener.close()
+    broker.close()
 
 
 def until(loop, condition):

@@ -20,7 +20,8 @@ VERSIONS = ("2.0.0", "2.1.0", "3.0.0")
 
 
 def run_of(runner):
-    return Run("paper/1", "2.1.0", "localhost:1883", "today", 1.0, runner.results)
+    about = ("paper/1", "2.1.0", "localhost:1883", "today", 1.0)
+    return Run(*about, runner.results, interrupted=runner.probe.interrupted)
 
 
 @pytest.mark.parametrize("version", VERSIONS)
@@ -99,6 +100,15 @@ def test_an_interrupted_run_cancels_its_order_and_keeps_what_it_had():
     assert runner.probe.interrupted and results[-1].reason == "interrupted"
     assert len(results) < 10
     assert not runner.probe.state["nodeStates"] and not runner.probe.state["driving"]
+
+
+def test_a_run_that_is_interrupted_between_two_cases_says_that_others_were_not_tried():
+    runner = runner_for()
+    cases = [c for c in cases_of("2.1.0") if c.chapter == "order"]
+    for _ in runner.run(cases):
+        runner.probe.interrupted = True
+    assert len(runner.results) == 1
+    assert lines(run_of(runner))[-1].endswith("interrupted, so the others were not tried")
 
 
 def test_report(tmp_path):

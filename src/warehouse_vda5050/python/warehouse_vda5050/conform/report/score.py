@@ -78,7 +78,8 @@ def lines(run: Run) -> list[str]:
     """Returns the scores by chapter, and what differs, for a terminal."""
     rows = [f"{score.name:12} {score.text:>10}{_others(score)}" for score in run.chapters]
     differs = [f"  {r.case.id}: {r.reason}" for r in run.results if r.verdict is Verdict.DIFFERS]
-    end = f"{run.whole.text} cases conform{_others(run.whole)}, in {run.seconds:.0f} s"
+    ended = "; interrupted, so the others were not tried" if run.interrupted else ""
+    end = f"{run.whole.text} cases conform{_others(run.whole)}, in {run.seconds:.0f} s{ended}"
     return [*rows, *(["differs:", *differs] if differs else []), end]
 
 
