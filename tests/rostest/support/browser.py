@@ -18,6 +18,7 @@ OPTIONS = (
     "--use-gl=angle",
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
+    "--disable-gpu-rasterization",  # text and boxes: quicker without a card that is none
     "--disable-quic",
     "--no-first-run",
     "--disable-background-networking",
@@ -36,17 +37,23 @@ CENTRE = (
     "(r => [r.x + r.width / 2, r.y + r.height / 2])"
     "(document.getElementById('{}').getBoundingClientRect())"
 )
-# Brings an element into the middle of the window, and is done once ten pictures have left it there.
-BRING = """const [element, done] = [document.getElementById(arguments[0]), arguments[1]];
-const top = () => element.getBoundingClientRect().top;
-let [was, still] = [NaN, 0];
+# Brings an element into the middle of the window, and is done once it has stayed there.
+BRING = """const [element, settles, done] = arguments;
+const at = document.getElementById(element);
+const top = () => at.getBoundingClientRect().top;
+let [was, since] = [NaN, 0];
 const look = () => {
-  still = top() === was ? still + 1 : 0;
-  if (still === 0) element.scrollIntoView({ block: 'center' });
-  was = top();
-  if (still < 10) requestAnimationFrame(look); else done();
+  if (top() !== was) {
+    at.scrollIntoView({ block: 'center' });
+    [was, since] = [top(), performance.now()];
+  }
+  if (performance.now() < since + 1000 * settles) requestAnimationFrame(look); else done();
 };
 look();"""
+# A processor that draws sixty pictures a second does little else.
+SELDOM = """const draw = requestAnimationFrame;
+window.requestAnimationFrame = (act) => setTimeout(() => draw(act), 1000 / RATE);"""
+RATE = 8  # of pictures, that tests need [1/s]
 
 
 class Browser:
@@ -73,7 +80,14 @@ class Browser:
 
     def be_known(self):
         """Is no newcomer, in what is opened from now on."""
-        script = f"if (location.protocol.startsWith('http')) {{ {KNOWN} }}"
+        self._begin_with(f"if (location.protocol.startsWith('http')) {{ {KNOWN} }}")
+
+    def draw_at(self, rate):
+        """Draws at most so many pictures a second, of what is opened from now on."""
+        self._begin_with(SELDOM.replace("RATE", str(rate)))
+
+    def _begin_with(self, script):
+        """Runs a script in each page before its own."""
         self.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": script})
 
     def be_desktop(self):
@@ -153,7 +167,7 @@ class Browser:
     def bring(self, element):
         """Brings an element, by its id, into view; returns its middle [px]. A window that has just
         changed its size moves what it shows for a while."""
-        self.driver.execute_async_script(BRING, element)
+        self.driver.execute_async_script(BRING, element, SETTLES)
         return self.read(CENTRE.format(element))
 
     def swipe(self, *paths):
@@ -203,9 +217,9 @@ class Browser:
 
 
 @contextmanager
-def browser(patience, size=(1280, 720), is_newcomer=False):
+def browser(patience, size=(1280, 720), is_newcomer=False, rate=RATE):
     """A Browser that is closed in the end, its window of that size [px]. `is_newcomer`: the floor's
-    page invites, as it does a person at first."""
+    page invites, as it does a person at first. `rate`: as of draw_at(); None: as a person has it."""
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         options = webdriver.ChromeOptions()
         window = f"--window-size={size[0]},{size[1]}"
@@ -219,6 +233,8 @@ def browser(patience, size=(1280, 720), is_newcomer=False):
             page = Browser(driver, patience)
             if not is_newcomer:
                 page.be_known()
+            if rate:
+                page.draw_at(rate)
             yield page
         finally:
             driver.quit()

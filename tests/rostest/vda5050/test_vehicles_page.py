@@ -36,9 +36,12 @@ class VehiclesPage(BrokerCase, PageTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
+        cls.start_master("99: {manufacturer: acme, serial: 'away'}\n")
+        # A vehicle says where it is as it comes, and then, standing, every half a minute: sooner
+        # seen by a master that is there before.
+        wait_until(lambda: ask("/vda5050")[1], "the master", PATIENCE)
         cls.virtual = begin("virtual", "--broker", f"localhost:{cls.broker.port}", *VIRTUAL)
         cls.addClassCleanup(end, cls.virtual)
-        cls.start_master("99: {manufacturer: acme, serial: 'away'}\n")
         cls.page.read("localStorage.setItem('person', 'Ann') ?? true")
         cls.page.click_on("top")
 
