@@ -6,6 +6,7 @@ Everything waits for what it needs, with a deadline of wall time; nothing sleeps
 
 import functools
 import math
+import re
 import threading
 
 import rospy
@@ -133,10 +134,21 @@ class Commander:
             publisher.unregister()
 
 
+def step(steps):
+    """Steps a paused world; returns the answer."""
+    answer = call("/gazebo/step", Step, steps)
+    assert answer.success, answer.message
+    return answer
+
+
 def step_until(time):
     """Steps a paused world to that simulated time [s], however crowded the machine is."""
-    answer = call("/gazebo/step", Step, max(0, round((time - sim_time()) / STEP)))
-    assert answer.success, answer.message
+    step(max(0, round((time - sim_time()) / STEP)))
+
+
+def waiting_commands():
+    """How many commands have arrived and wait for the next step of a paused world."""
+    return int(re.search(r"(\d+) commands wait", step(0).message)[1])
 
 
 def pose(x=0.0, y=0.0, z=0.0, yaw=None):

@@ -11,12 +11,25 @@ import rosbag
 import rospy
 import rostest
 from rostest_support.node_test import wait_until
-from rostest_support.warehouse_test import Collector, Commander, place, sim_time, step_until
+from rostest_support.warehouse_test import (
+    ANSWERS,
+    Collector,
+    Commander,
+    place,
+    sim_time,
+    step_until,
+    waiting_commands,
+)
 from rostest_support.world_node import Node
 
 from warehouse_msgs.msg import Event, FleetState, FollowPath, KivaStatus
 
-MODELS = ("kiva1", "kiva2", "kiva77", "")
+FLEET_PERIOD = 0.05  # [s]
+
+
+def speed(state):
+    """The largest of a FleetState along x or y [m/s]."""
+    return max(map(abs, state.vx + state.vy))
 
 
 class Follow(unittest.TestCase):
@@ -27,9 +40,16 @@ class Follow(unittest.TestCase):
         self.addCleanup(self._folder.cleanup)
         self.bag = f"{self._folder.name}/run.bag"
 
-    def run_until(self, time):
-        step_until(time)
-        return self.fleet.first(lambda state: state.stamp.to_sec() > time - 0.051)
+    def after(self, duration):
+        """Steps that long [s]; returns the state of the fleet at the end."""
+        end = sim_time() + duration
+        step_until(end)
+        return self.fleet.first(lambda state: state.stamp.to_sec() > end - FLEET_PERIOD / 2)
+
+    def send(self, topic, count=1, **fields):
+        """Sends a message of `count` commands, which the next step takes."""
+        self.commander.send(topic, **fields)
+        wait_until(lambda: waiting_commands() == count, f"{topic} on its way")
 
     def robot(self, fleet, kiva_id):
         """(state, path_id, reached, left, last_end) of one in a FleetState."""
@@ -37,7 +57,9 @@ class Follow(unittest.TestCase):
         return fleet.state[i], fleet.path_id[i], fleet.reached[i], fleet.left[i], fleet.last_end[i]
 
     def test_paths_are_followed_told_refused_stopped_cancelled_and_recorded(self):
-        with Node(world="paper", lockstep=True, record=self.bag, fleet_rate=20) as node:
+        with Node(
+            world="paper", lockstep=True, record=self.bag, fleet_rate=1 / FLEET_PERIOD
+        ) as node:
             self.commander = Commander()
             self.fleet = Collector("/warehouse/fleet", FleetState)
             self.follow()
@@ -58,21 +80,12 @@ class Follow(unittest.TestCase):
         self.assertEqual(code, 0, said)
         self.assertRegex(said, r"replayed \d+ steps, and all \d+ hashes")
 
-    def answered(self, topic, kinds=(Event.ACCEPTED, Event.REFUSED), models=MODELS, **fields):
-        """Steps until a command that is sent has been answered by an event; returns that."""
+    def answered(self, topic, **fields):
+        """Sends a command; returns the event that the next steps answer it with."""
         self.commander.events.clear()
-        self.commander.send(topic, **fields)
-
-        def answers():
-            events = list(self.commander.events.messages)
-            return [e for e in events if e.kind in kinds and e.model in models]
-
-        def come():
-            step_until(sim_time() + 0.05)
-            return answers()
-
-        wait_until(come, f"an answer to {topic}")
-        return answers()[0]
+        self.send(topic, **fields)
+        self.after(FLEET_PERIOD)
+        return self.commander.events.first(lambda e: e.kind in ANSWERS)
 
     def follow(self):
         (x1, y1, _), (x2, y2, _) = place("kiva1"), place("kiva2")
@@ -83,12 +96,13 @@ class Follow(unittest.TestCase):
             "/follow", kiva_id=1, path_id=5, first=0, x=xs[1], y=ys[1], released=3
         )
         self.assertEqual((answer.kind, answer.model), (Event.ACCEPTED, "kiva1"), answer.text)
-        state = self.run_until(sim_time() + 6)
+        state = self.after(6)
         self.assertEqual(self.robot(state, 1), (KivaStatus.STATE_WAITING, 5, 3, 2, 0))
 
         # Both at once: a change of the first one's path, and a new one.
         answer = self.answered(
             "/warehouse/follow",
+            count=2,
             kiva_id=[1, 2],
             path_id=[5, 6],
             first=[3, 0],
@@ -98,18 +112,18 @@ class Follow(unittest.TestCase):
             released=[6, 6],
         )
         self.assertEqual((answer.kind, answer.model), (Event.ACCEPTED, "kiva2"), answer.text)
-        self.run_until(sim_time() + 1.5)
-        self.commander.send("/stop", kiva_id=0, stop=True)
-        wait_until(lambda: self.speed_after_a_step() < 1e-6, "the stop")
+        self.after(1.5)
+        self.send("/stop", kiva_id=0, stop=True)
+        self.assertLess(speed(self.after(2)), 1e-6)
         begin = place("kiva1"), place("kiva2")
-        self.run_until(sim_time() + 1)
+        self.after(1)
         self.assertEqual((place("kiva1"), place("kiva2")), begin)
-        self.commander.send("/stop", kiva_id=0, stop=False)
-        wait_until(lambda: self.speed_after_a_step() > 0.1, "going on")
-        self.run_until(sim_time() + 0.5)
-        answer = self.answered("/cancel", kinds=(Event.DONE,), models=("kiva2",), kiva_id=2)
-        self.assertEqual((answer.model, answer.text), ("kiva2", "cancelled"))
-        state = self.run_until(sim_time() + 6)
+        self.send("/stop", kiva_id=0, stop=False)
+        self.assertGreater(speed(self.after(0.5)), 0.1)
+        self.send("/cancel", kiva_id=2)
+        state = self.after(6)
+        end = self.commander.events.first(lambda e: e.kind == Event.DONE and e.model == "kiva2")
+        self.assertEqual(end.text, "cancelled")
         self.assertEqual(self.robot(state, 1), (KivaStatus.STATE_IDLE, 5, 6, 5, Event.DONE))
 
         self.refusals(xs[1], ys[1])
@@ -125,14 +139,9 @@ class Follow(unittest.TestCase):
         self.assertIn("max_speed 0", answer.text)
         answer = self.answered("/follow_limited", path=path, max_speed=[inf, 0.3, 0.3, inf])
         self.assertEqual((answer.kind, answer.model), (Event.ACCEPTED, "kiva1"), answer.text)
-        speeds = [self.speed_after_a_step() for _ in range(120)]
+        speeds = [speed(self.after(FLEET_PERIOD)) for _ in range(120)]
         self.assertAlmostEqual(speeds[-1], 0.3, 6)
         self.assertLess(max(speeds), 0.3 + 1e-6)
-
-    def speed_after_a_step(self):
-        step_until(sim_time() + 0.05)
-        state = self.fleet.messages[-1]
-        return max(map(abs, state.vx + state.vy))
 
     def refusals(self, x, y):
         cases = (

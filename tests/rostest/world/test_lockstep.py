@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Time by the step, back and again; every run the same, and the same as without ROS."""
 
-import re
 import unittest
 from pathlib import Path
 
@@ -20,13 +19,15 @@ from rostest_support.warehouse_test import (
     place,
     sim_time,
     spawn,
+    step,
+    waiting_commands,
     world,
 )
 from std_msgs.msg import String
 
 from kiva_plugin_cpp import World
 from warehouse_msgs.msg import Event, KivaStatus, TrackedObjects
-from warehouse_msgs.srv import Checkpoint, Step, Undo
+from warehouse_msgs.srv import Checkpoint, Undo
 
 SECOND = 1000  # steps
 
@@ -38,23 +39,12 @@ COMMANDS = {
 }
 
 
-def step(steps):
-    answer = call("/gazebo/step", Step, steps)
-    assert answer.success, answer.message
-    return answer
-
-
 def save(name):
     return call("/warehouse/checkpoint", Checkpoint, name)
 
 
 def restore(name):
     return call("/warehouse/restore", Checkpoint, name)
-
-
-def waiting():
-    """Commands that wait for the next step."""
-    return int(re.search(r"(\d+) commands wait", step(0).message)[1])
 
 
 class Lockstep(unittest.TestCase):
@@ -71,7 +61,7 @@ class Lockstep(unittest.TestCase):
     def send(self, commands):
         for topic, fields in commands:
             self.commander.send(topic, **fields)
-        wait_until(lambda: waiting() == len(commands), "commands on their way")
+        wait_until(lambda: waiting_commands() == len(commands), "commands on their way")
 
     def play(self, seconds, begin=0):
         """The hashes of those seconds."""

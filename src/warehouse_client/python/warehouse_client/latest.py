@@ -1,11 +1,30 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The newest messages for a node's worker thread, and messages made on demand."""
+"""News and the newest messages for a node's worker thread, and messages made on demand."""
 
 import threading
 from collections.abc import Callable
 from typing import Any
 
 from warehouse_client.message_check import fit, subscribe
+
+
+class News:
+    """Wakes a worker thread. What comes just as a wait ends in vain is kept for the next one."""
+
+    def __init__(self) -> None:
+        self._event = threading.Event()
+
+    def set(self) -> None:
+        """Ends the worker's wait, the present one or the next."""
+        self._event.set()
+
+    def wait(self, timeout: float) -> bool:
+        """Waits for news, at most `timeout` wall seconds. Returns whether there were any; the
+        worker looks at them after that."""
+        came = self._event.wait(timeout)
+        if came:
+            self._event.clear()
+        return came
 
 
 class LatestMessages:
@@ -16,7 +35,7 @@ class LatestMessages:
 
     def __init__(self, ros: Any, **topics: Any) -> None:
         """Subscribes; `topics` maps a name to (topic, message type)."""
-        self._fresh, self._lock = threading.Event(), threading.Lock()
+        self._fresh, self._lock = News(), threading.Lock()
         self._messages = dict.fromkeys(topics)
         for name, (topic, kind) in topics.items():
             subscribe(ros, topic, kind, self._keep, name, queue_size=1)
@@ -28,9 +47,7 @@ class LatestMessages:
 
     def wait(self, timeout: float) -> bool:
         """Waits for a new message, at most `timeout` wall seconds. Returns whether one came."""
-        came = self._fresh.wait(timeout)
-        self._fresh.clear()
-        return came
+        return self._fresh.wait(timeout)
 
     def __getitem__(self, name: str) -> Any:
         with self._lock:

@@ -61,9 +61,10 @@ struct Recovery {
 };
 
 struct Course {
-  std::uint32_t id = 0;  ///< id of the path, or of the last one
-  int refusals = 0;      ///< consecutive refusals of paths
-  double sent = 0;       ///< time of the last release [s]
+  std::uint32_t id = 0;      ///< id of the path, or of the last one
+  std::uint32_t oldest = 0;  ///< id of the first path of which a copy may still be under way
+  int refusals = 0;          ///< consecutive refusals of paths
+  double sent = 0;           ///< time of the last release [s]
 
   // The path: points 0 to released - 1; the cell where the robot stands if there is no path.
   std::vector<Cell> cells;
@@ -106,6 +107,9 @@ struct Course {
   bool isRefused() const { return phase_ == CoursePhase::kRefused; }
   bool isWithdrawn() const { return phase_ == CoursePhase::kWithdrawn; }
   int points() const { return static_cast<int>(cells.size()); }
+  /// Returns whether a path is one of this course that a robot may drive now: the last one, or one
+  /// that was given up before it was accepted, whose copy came late.
+  bool isOwn(std::uint32_t path) const { return path != 0 && oldest <= path && path <= id; }
 
   /// Makes the robot a member of the fleet, in a cell.
   void admit(Cell cell, double now, int heading);
@@ -113,7 +117,8 @@ struct Course {
   void send();
   /// Notes a refusal, unless the robot has reported the path.
   void refuse();
-  /// Notes that the robot reports the path.
+  /// Notes that the robot reports the path. Copies of those before have arrived: messages keep
+  /// their order.
   void accept();
   /// Notes that the robot was commanded to stop; drops the plan beyond.
   void withdraw();

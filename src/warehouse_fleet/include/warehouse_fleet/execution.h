@@ -123,6 +123,9 @@ class Execution {
   /// Returns whether others command a robot: it is busy, but neither with its path nor with work
   /// that setWork() knows.
   bool isForeign(int robot) const;
+  /// Returns whether a robot drives a path that was given up, since a copy of it came late. It gets
+  /// no more of it: the caller has to end it.
+  bool isOnDroppedPath(int robot) const;
   /// Returns whether a robot is broken, or stands although it may drive. The planner sees its cells
   /// as closed.
   bool isStalled(int robot) const;
@@ -155,6 +158,7 @@ class Execution {
   bool hasTurned(int robot) const;
   void finish(int robot);
   bool isOver(int robot) const;
+  bool isDriving(int robot) const;
   void occupy(int robot);
   void renew(int robot);
   void keepAround(int robot);

@@ -100,7 +100,8 @@ py::tuple states(const Run& run) {
   const int robots = execution.robots();
   py::array_t<Cell> cell(robots);
   py::array_t<double> still_since(robots);
-  py::array_t<bool> stands(robots), stalled(robots), astray(robots), lost(robots), foreign(robots);
+  py::array_t<bool> stands(robots), stalled(robots), astray(robots), lost(robots);
+  py::array_t<bool> foreign(robots), dropped(robots);
   for (int robot = 0; robot < robots; ++robot) {
     cell.mutable_data()[robot] = execution.cellOf(robot);
     stands.mutable_data()[robot] = execution.stands(robot);
@@ -109,8 +110,9 @@ py::tuple states(const Run& run) {
     lost.mutable_data()[robot] = execution.isLost(robot);
     still_since.mutable_data()[robot] = execution.stillSince(robot);
     foreign.mutable_data()[robot] = execution.isForeign(robot);
+    dropped.mutable_data()[robot] = execution.isOnDroppedPath(robot);
   }
-  return py::make_tuple(cell, stands, stalled, astray, lost, still_since, foreign);
+  return py::make_tuple(cell, stands, stalled, astray, lost, still_since, foreign, dropped);
 }
 
 std::unique_ptr<Run> make(const std::shared_ptr<Floor>& floor,
@@ -246,10 +248,11 @@ on there.)")
           "Returns the cells closed now, (m,) int32, with those of robots that are not controlled.")
       .def("states", &states, R"(Returns what is known of each robot by now, (n,) each.
 
-(cell, stands, stalled, astray, lost, still_since, foreign): cell int32, where the robot stands, or
-stood last, -1 beyond the floor. Of bool: stands, in the middle of a cell with nothing released
-beyond it; stalled, broken, or does not drive although it may; astray, pushed off the middle of its
-cell; lost, gave up finding back to one; foreign, busy with a command that is not the fleet's.
+(cell, stands, stalled, astray, lost, still_since, foreign, dropped): cell int32, where the robot
+stands, or stood last, -1 beyond the floor. Of bool: stands, in the middle of a cell with nothing
+released beyond it; stalled, broken, or does not drive although it may; astray, pushed off the
+middle of its cell; lost, gave up finding back to one; foreign, busy with a command that is not the
+fleet's; dropped, on a path of the fleet that was given up, since a copy of it came late.
 still_since float64 [s]: since when it has stood although it has somewhere to go; the time of the
 last report for all others.)")
       .def("stands", ofAll<bool>(&Execution::stands),

@@ -36,7 +36,7 @@ class Site:
         """Another driver, that ends the paths it finds."""
         self.driver.close()
         self.begin(self.world)
-        while (left := self.traffic.inherited(reports_of(self.world.fleet))).any():
+        while (left := self.traffic.unwanted(reports_of(self.world.fleet))).any():
             self.world.cancel(self.traffic.robots.kiva_ids[left])
             self.run(0.5)
 

@@ -145,6 +145,24 @@ def test_paths_that_others_gave_out_are_cancelled(begin):
     assert fleet.tick().cancels == [2]
 
 
+def test_a_robot_on_a_path_of_its_fleet_that_came_late_is_stopped_and_not_manual(begin):
+    fleet = begin()
+    unit = unit_above(0)
+    assert fleet.controller.transports.submit(unit, STATION).accepted
+    for _ in range(5):
+        fleet.tick()
+    fleet.reports["shelf_id"][0] = unit
+    paths = []
+    while len(paths) < 2:  # the first one is refused, and given up
+        releases = fleet.tick(refused=["kiva1"]).releases
+        paths += [path for path in releases.path_id.tolist() if path not in paths]
+    fleet.reports["path_id"][0], fleet.reports["reached"][0] = paths[0], 1
+    fleet.reports["status"][0], fleet.reports["state"][0] = Status.BUSY, State.MOVING_X
+    cancels = [fleet.tick(refused=["kiva1"]).cancels for _ in range(15)]
+    assert [1] in cancels
+    assert fleet.controller.robots.automatic.all() and fleet.step() == Step.BRINGING
+
+
 def test_a_robot_that_is_set_manual_on_its_way_is_to_stop(begin):
     fleet = begin()
     fleet.tick()

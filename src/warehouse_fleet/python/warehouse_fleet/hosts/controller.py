@@ -135,8 +135,8 @@ class FleetController:
             self.transports.reject(*rejection)
         if observation.units is not None:
             self.transports.update_units(observation.units)
-        cancels = self._cancels(observation.time, reports)
         traffic.update_robots(observation.time, reports)
+        cancels = self._cancels(observation.time, reports)
         if traffic.takes_over and self._takeover:
             self._takeover.advance(reports)
         traffic.update_people(observation.people)
@@ -157,12 +157,12 @@ class FleetController:
         return Decision(releases, lifts, cancels, tows, moves)
 
     def _cancels(self, time: float, reports: Reports) -> list[int]:
-        """Returns the robots whose paths are to end: others gave them out, or the robots have left
-        the fleet. They end where the robots can stop."""
+        """Returns the robots whose paths are to end: others gave them out, they were given up, or
+        the robots have left the fleet. They end where the robots can stop."""
         if self._next_cancels - CANCEL_PERIOD <= time < self._next_cancels:
             return []
         self._next_cancels = time + CANCEL_PERIOD
-        robots = np.flatnonzero(self.traffic.inherited(reports)).tolist()
+        robots = np.flatnonzero(self.traffic.unwanted(reports)).tolist()
         robots += self._handover.waiting(time, reports)
         return self.robots.kiva_ids[robots].tolist()
 

@@ -92,7 +92,6 @@ class CoordinatorNode:
         """Controls the fleet until ROS shuts down."""
         while not rospy.is_shutdown():
             has_news = self._watch.news.wait(0.2)
-            self._watch.news.clear()
             fleet = self._watch.fleet
             # What it lacks to begin may come after the only report while time stands still.
             if has_news or (fleet is not None and self.controller is None):

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Subscribes to the topics from which a coordinator knows the warehouse."""
 
-import threading
 from typing import Any
 
 import numpy as np
@@ -10,6 +9,7 @@ from nav_msgs.msg import OccupancyGrid
 from nav_msgs.srv import GetMap
 from std_msgs.msg import Header
 
+from warehouse_client.latest import News
 from warehouse_client.message_check import fit, subscribe
 from warehouse_client.unit_messages import unit_ids, unit_poses
 from warehouse_fleet.transports.unit_map import UnitPoses
@@ -37,7 +37,7 @@ class WarehouseWatch:
     """
 
     def __init__(self) -> None:
-        self.news = threading.Event()
+        self.news = News()
         self.fleet: Any = None  # FleetState
         self.scenery: Any = None  # Scenery
         self.objects: Any = None  # WarehouseObjects

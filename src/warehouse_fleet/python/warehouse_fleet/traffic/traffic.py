@@ -113,6 +113,7 @@ class Traffic:
         )
         self._settled = np.zeros(len(self.robots), bool)  # has been idle since this began
         self._foreign = np.zeros(len(self.robots), np.uint8)  # reports in a row
+        self._dropped = np.zeros(len(self.robots), bool)  # on paths that were given up
         self._gave_up = np.zeros(len(self.robots), bool)  # found no way back, by the last reports
         self.watchdog = Watchdog(self.robots, np.asarray(plan.lane, bool).ravel(), self.all_ahead)
         self._after = np.full(plan.passable.size, NOWHERE, np.int32)  # next cell of a lane, by cell
@@ -163,7 +164,7 @@ class Traffic:
         )
         states = execution.states()
         robots.cell, robots.stands, robots.stalled, robots.astray = states[:4]
-        self._gave_up, robots.still_since, foreign = states[4:]
+        self._gave_up, robots.still_since, foreign, self._dropped = states[4:]
         robots.stalled_since = np.where(
             robots.stalled, np.minimum(robots.stalled_since, time), np.inf
         )
@@ -176,9 +177,11 @@ class Traffic:
         self.watchdog.update(time)
         self.standing.update(time)
 
-    def inherited(self, reports: Reports) -> np.ndarray:
-        """Returns (n,) bool: robots that have been on paths since before this began."""
-        return ~self._settled & (reports["path_id"] != 0) & (reports["status"] != IDLE)
+    def unwanted(self, reports: Reports) -> np.ndarray:
+        """Returns (n,) bool: robots on paths that are to end. They have been on them since before
+        this began, or the paths were given up, and copies came late."""
+        inherited = ~self._settled & (reports["path_id"] != 0) & (reports["status"] != IDLE)
+        return inherited | (self._dropped & self.robots.automatic)
 
     def _find_foreign(self, reports: Reports, foreign: np.ndarray) -> None:
         """Sets robots MANUAL that were idle and are busy with a person's command, or that a client

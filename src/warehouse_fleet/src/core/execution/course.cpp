@@ -23,6 +23,7 @@ void Course::refuse() {
 void Course::accept() {
   if (phase_ != CoursePhase::kWithdrawn) phase_ = CoursePhase::kDriving;
   refusals = 0;
+  oldest = id;
 }
 
 void Course::withdraw() {

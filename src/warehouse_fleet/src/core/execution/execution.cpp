@@ -115,7 +115,7 @@ void Execution::admit(int robot) {
   if (holders_.holder(at) != kNobody && at != course.kept) return;
   vacate(robot);
   renew(robot);
-  course.id = std::max(course.id, report.path_id);
+  if (report.path_id > course.id) course.id = course.oldest = report.path_id;
   course.admit(at, now_, headingOf(robot));
   holders_.hold(at, robot);
   if (at == course.kept) course.kept = kNowhere;
@@ -137,10 +137,11 @@ void Execution::dismiss(int robot) {
   renew(robot);
 }
 
-/// Resets a course, except its number and, while the robot is controlled, its recovery.
+/// Resets a course, except its ids and, while the robot is controlled, its recovery.
 void Execution::renew(int robot) {
   Course next;
   next.id = courses_[robot].id;
+  next.oldest = courses_[robot].oldest;
   next.kept = courses_[robot].kept;
   if (next.kept != kNowhere) {
     endRun(courses_[robot]);
@@ -310,17 +311,25 @@ Journey Execution::takeJourney(int robot) {
   return journey;
 }
 
-bool Execution::isForeign(int robot) const {
-  const Course& course = courses_.at(robot);
-  const Report& report = reports_[robot];
+bool Execution::isDriving(int robot) const {
+  const Report& report = reports_.at(robot);
   if (report.status == RobotStatus::kIdle) return false;
   // A robot that lifts or is served does not drive.
-  if (report.is_busy && report.state != RobotState::kMovingX &&
-      report.state != RobotState::kMovingY)
-    return false;
-  // A late copy of a dropped path still belongs to the robot.
-  if (!course.isActive()) return report.path_id == 0 || report.path_id != course.id;
-  return (course.isAccepted() || course.isRefused()) && report.path_id != course.id;
+  return !report.is_busy || report.state == RobotState::kMovingX ||
+         report.state == RobotState::kMovingY;
+}
+
+bool Execution::isForeign(int robot) const {
+  const Course& course = courses_.at(robot);
+  if (!isDriving(robot) || course.isOwn(reports_[robot].path_id)) return false;
+  return !course.isActive() || course.isAccepted() || course.isRefused();
+}
+
+bool Execution::isOnDroppedPath(int robot) const {
+  const Course& course = courses_.at(robot);
+  const std::uint32_t path = reports_[robot].path_id;
+  if (!isDriving(robot) || !course.isOwn(path)) return false;
+  return !course.isActive() || path != course.id;
 }
 
 bool Execution::isStalled(int robot) const {

@@ -96,16 +96,22 @@ class ForecastService:
             self._runs.give_up()
 
     def keep_up(self, now: float) -> None:
-        """Looks ahead if it is time to, at a time of the shift [s], and no forecast is made."""
+        """Looks ahead if it is time to, at a time of the shift [s], and no forecast is made. Where
+        time stands, as before it begins to pass, that waits."""
         if now < self._last:  # the world was reset
             self._last = -math.inf
-        if not self._every or now - self._last < self._every:
+        if not self._every or now - self._last < self._every or self._is_paused:
             return
         if self._at_work and self._at_work.is_alive():
             return
         self._last = now
         with contextlib.suppress(ForecastError, ForkError):  # such as an hour without orders
             self._begin(Request(HOUR))
+
+    @property
+    def _is_paused(self) -> bool:
+        """Whether the time of the shift stands still."""
+        return clock() - self._host.last_step > PAUSED
 
     def _forecast(self, request: Any) -> Any:
         try:
@@ -135,7 +141,7 @@ class ForecastService:
     def _tasks(self, asked: Request) -> tuple[list[Task], dict[int, tuple[str, float]]]:
         """Forks the shift. Raises ForecastError, ForkError."""
         host = self._host
-        if clock() - host.last_step > PAUSED:
+        if self._is_paused:
             raise ForecastError("the world is paused, or lost: there is nothing to look ahead from")
         recent = (
             moment.recent_orders(host.engine, host.shift.now) if host.orders_text == "none" else ()

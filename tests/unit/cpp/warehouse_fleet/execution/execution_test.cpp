@@ -402,6 +402,59 @@ TEST_F(ExecutionTest, ARefusedPathIsGivenUpOnlyWhenNoCopyOfItIsOnItsWay) {
   EXPECT_EQ(at(robots_[robot]), cell(4, 1));
 }
 
+TEST_F(ExecutionTest, OneOnAPathThatWasGivenUpIsNotForeign) {
+  const int robot = add(1, 1);
+  observe();
+  plan({straight(3)});
+  const Message late = release().front();
+  execution_.refused(robot);  // a twin of it was
+  for (int i = 0; i < 15; ++i) {
+    now_ += kTick;
+    observe();
+  }
+  plan({straight(3)});
+  const Message next = release().front();
+  ASSERT_NE(next.id, late.id);
+  deliver(late);
+  deliver(next);  // refused: it is busy
+  observe();
+  EXPECT_FALSE(execution_.isForeign(robot));
+  EXPECT_TRUE(execution_.isOnDroppedPath(robot));
+
+  robots_[robot].is_active = false;  // the caller has ended it
+  for (int i = 0; i < 15; ++i) {
+    now_ += kTick;
+    observe();
+    for (const Message& message : release()) deliver(message);
+  }
+  plan({straight(3)});
+  for (int i = 0; i < 30; ++i) tick();
+  EXPECT_EQ(at(robots_[robot]), cell(4, 1));
+
+  robots_[robot].is_active = true;  // by others, who know this number from its first paths
+  robots_[robot].id = late.id;
+  observe();
+  EXPECT_TRUE(execution_.isForeign(robot));
+  EXPECT_FALSE(execution_.isOnDroppedPath(robot));
+}
+
+TEST_F(ExecutionTest, OneThatTakesItsPathAfterItWasGivenUpIsOnADroppedOne) {
+  const int robot = add(1, 1);
+  observe();
+  plan({straight(3)});
+  const Message late = release().front();
+  execution_.refused(robot);
+  for (int i = 0; i < 15; ++i) {
+    now_ += kTick;
+    observe();
+  }
+  EXPECT_FALSE(execution_.isOnDroppedPath(robot));
+  deliver(late);
+  observe();
+  EXPECT_FALSE(execution_.isForeign(robot));
+  EXPECT_TRUE(execution_.isOnDroppedPath(robot));
+}
+
 TEST_F(ExecutionTest, OneThatIsBusyWhereItsReleasedPathEndsIsGivenTheEnd) {
   const int robot = add(1, 1);
   observe();
