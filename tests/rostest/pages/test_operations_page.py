@@ -139,7 +139,10 @@ class OperationsPage(WorkPageTest):
         self.page.open(address() + "whatif")
         self.page.until("!document.getElementById('from-now').hidden")
         for line, columns in (("close pick1", 1), ("close pick99", 1), ("", 2)):
-            script = f"document.getElementById('now-changes').value = '{line}'"
+            script = (
+                f"document.getElementById('now-changes').value = '{line}';"
+                "document.getElementById('now-minutes').value = 30"
+            )
             self.page.driver.execute_script(script)
             self.page.click_on("now-go")
             if "99" in line:
@@ -148,7 +151,7 @@ class OperationsPage(WorkPageTest):
                 )
             self.page.until(f"page.fromNow.columns.length === {columns}")
         table = self.page.text("now-table")
-        for text in ("close pick1; 60 min", "as it is; 60 min", "Orders done", "±"):
+        for text in ("close pick1; 30 min", "as it is; 30 min", "Orders done", "±"):
             self.assertIn(text, table)
         self.page.open(address() + "operations")
 
@@ -156,6 +159,7 @@ class OperationsPage(WorkPageTest):
         """Asks for a forecast with a change. more: what is filled in besides."""
         options = "document.getElementById('forecast-change')"
         self.page.until(f"[...{options}.options].some((o) => o.value === '{change}')")
+        self.page.driver.execute_script("document.getElementById('forecast-minutes').value = 30")
         self.page.driver.execute_script(f"{options}.value = '{change}'; {more}")
         self.page.driver.execute_script("document.getElementById('forecast-form').requestSubmit()")
 

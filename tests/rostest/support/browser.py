@@ -218,8 +218,11 @@ class Browser:
 
 @contextmanager
 def browser(patience, size=(1280, 720), is_newcomer=False, rate=RATE):
-    """A Browser that is closed in the end, its window of that size [px]. `is_newcomer`: the floor's
-    page invites, as it does a person at first. `rate`: as of draw_at(); None: as a person has it."""
+    """A Browser that is closed in the end, its window of that size [px].
+
+    is_newcomer: the floor's page invites, as it does a person at first. rate: of draw_at(); None:
+    as a person has it.
+    """
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         options = webdriver.ChromeOptions()
         window = f"--window-size={size[0]},{size[1]}"

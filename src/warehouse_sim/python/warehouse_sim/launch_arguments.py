@@ -272,6 +272,7 @@ ARGUMENTS: dict[str, Check] = {
     "coordinator": _flag,
     "transports": _one_of(*CHOICES["transports"]),
     "forecast_every": _number(lambda minutes: 0 <= minutes <= 1440, "0 to 1440 minutes"),
+    "forecast_seconds": _number(lambda seconds: 0 <= seconds <= 3600, "0 to 3600 seconds"),
     "exchange": _number(lambda seconds: seconds > 0, "a number of seconds above 0"),
     "planner": _file("a YAML file that names a planner"),
     "respawn": _flag,

@@ -31,6 +31,7 @@ from warehouse_operations.store import moment
 PAUSED = 2.0  # after which a shift whose time stands still is paused [s, wall]
 HOUR = 60.0  # how far the shift is looked ahead of without a request [min]
 BUDGET = 20.0  # time for as many runs as possible [s, wall]
+MOST_SECONDS = 3600.0  # of it
 NAMES = ("p10", "p50", "p90")
 
 
@@ -76,12 +77,13 @@ class Host(Protocol):
 class ForecastService:
     """Answers requests for forecasts, and publishes each on a latched topic.
 
-    every: how often the shift is looked ahead of without a request [s]; 0: never.
+    every: how often the shift is looked ahead of without a request [s]; 0: never. budget: time for
+    as many runs as possible of a request without their number [s, wall].
     """
 
-    def __init__(self, host: Host, every: float = 0.0) -> None:
+    def __init__(self, host: Host, every: float = 0.0, budget: float = BUDGET) -> None:
         self._host, self._ids = host, itertools.count(1)
-        self._every, self._last = every, -math.inf
+        self._every, self._budget, self._last = every, budget, -math.inf
         self._at_work: threading.Thread | None = None
         self._lock, self._runs = threading.Lock(), Runs([], 0)
         self._newest = 0
@@ -128,7 +130,7 @@ class ForecastService:
         with self._lock:
             self._runs.give_up()
             self._newest = number = next(self._ids)
-            self._runs = runs = Runs(tasks, asked.runs, budget=BUDGET)
+            self._runs = runs = Runs(tasks, asked.runs, budget=self._budget)
             self._at_work = threading.Thread(
                 target=self._make,
                 args=(number, asked, tasks, known, runs),

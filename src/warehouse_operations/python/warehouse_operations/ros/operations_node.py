@@ -29,7 +29,7 @@ from warehouse_operations.policies import Policies
 from warehouse_operations.ros import operation_messages
 from warehouse_operations.ros.fleet_log import FleetLog
 from warehouse_operations.ros.fleet_messages import fleet_now
-from warehouse_operations.ros.forecast_service import ForecastService
+from warehouse_operations.ros.forecast_service import BUDGET, ForecastService
 from warehouse_operations.ros.operation_messages import SHOWN, header
 from warehouse_operations.ros.remote_transports import RemoteTransports
 from warehouse_operations.ros.shift_services import ShiftServices
@@ -56,9 +56,9 @@ STATIONS_PERIOD, KPIS_PERIOD = 1.0, 10.0  # [s], simulated
 class OperationsNode:
     """Runs a shift and serves it.
 
-    database: a URL, or the path of an SQLite file. orders: see open_shift. forecast_every: see
-    ForecastService [s]. Raises what open_shift raises, and rospy.ROSInterruptException where ROS
-    shuts down meanwhile.
+    database: a URL, or the path of an SQLite file. orders: see open_shift. forecast_every and
+    forecast_seconds: every and budget of ForecastService [s]. Raises what open_shift raises, and
+    rospy.ROSInterruptException where ROS shuts down meanwhile.
     """
 
     def __init__(
@@ -68,6 +68,7 @@ class OperationsNode:
         policies: Policies | None = None,
         seed: int = 1,
         forecast_every: float = 0.0,
+        forecast_seconds: float = BUDGET,
     ) -> None:
         self._lock = threading.RLock()  # of the shift, between the loop and services
         self._log = FleetLog()
@@ -89,7 +90,7 @@ class OperationsNode:
         self._database = Database(database)
         self._begin()
         ShiftServices(self)
-        self._forecasts = ForecastService(self, forecast_every)
+        self._forecasts = ForecastService(self, forecast_every, forecast_seconds)
         # Published last: a node that has received this topic finds all services.
         self._stations = _publisher("stations", msg.StationStates)
 

@@ -188,13 +188,13 @@ def test_a_queue_rides_in_its_order(fleet_of):
 
 @pytest.mark.parametrize("tiers, bots", [(2, 4), (3, 6)])
 def test_a_shift_on_tiers(tmp_path, tiers, bots):
-    """Twenty-five minutes with many rides: no contact, no jam, the stock balances; it repeats."""
+    """Twelve minutes with many rides: no contact, no jam, the stock balances; it repeats."""
     path = write_tiers_instance(tmp_path / "a.xinst", tiers=tiers, bots=bots)
     outcomes = []
     for k in range(2):
         description = Description(instance=str(path), seed=3)
         with open_operations(description, str(tmp_path / f"{k}.db")) as ops:
-            ops.run(minutes=25)
+            ops.run(minutes=12)
             assert stock_faults(ops) == []
             figures, fleet = ops.kpis(), ops.fleet
             assert fleet.stuck == 0 and fleet.refusals == [] and fleet.fallen_items == []
@@ -205,7 +205,7 @@ def test_a_shift_on_tiers(tmp_path, tiers, bots):
     assert [first[name] for name in ("collisions", "blocked", "watchdog")] == [0, 0, 0]
     assert first["elevator_rides"] > 20 and first["elevator_wait_s"] > 0
     with open_operations(Description(instance=str(path), seed=3, physics=False)) as ops:
-        ops.run(minutes=25)
+        ops.run(minutes=12)
         ideal = ops.kpis()["items_picked"]
     assert 0.85 * ideal < first["items_picked"] < 1.1 * ideal
 
