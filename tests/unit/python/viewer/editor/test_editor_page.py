@@ -246,7 +246,7 @@ def test_a_trial_can_be_given_up(page):
 
 
 def test_a_trial_that_is_closed_while_it_runs_stays_closed(page):
-    open_drawing(page, "huge")
+    open_drawing(page, "large")
     page.click_on("try")
     page.until("document.getElementById('trial').dataset.phase === 'running'")
     # Records each state of the panel until the request has ended and the page has dealt with it.
