@@ -42,7 +42,7 @@ class BuilderKilledWhileBuilding(unittest.TestCase):
     def build_in_vain(self):
         with self.assertRaises(rospy.ServiceException):
             # So large that no client is too late.
-            create("", robots=100, shelves=50_000, items=200_000)
+            create("", robots=100, shelves=20_000, items=80_000)
 
 
 class Respawn(unittest.TestCase):
