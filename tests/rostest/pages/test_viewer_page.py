@@ -639,8 +639,7 @@ class Phone(PageTest):
         part = "(({begin, end}) => (page.timeline.player.time - begin) / (end - begin))"
         self.page.until(f"Math.abs({part}(page.timeline.track) - 0.25) < 0.05")
         self.page.until("document.querySelector('#replay-track .at').hidden")
-        self.page.tap_on("replay-live")
-        self.page.until("!document.body.classList.contains('replaying')")
+        self.page.tap_until("replay-live", "!document.body.classList.contains('replaying')")
 
     def test_reset_lies_apart_from_undo(self):
         undo, reset = (
