@@ -123,7 +123,7 @@ class OperationsPage(WorkPageTest):
         self.assertTrue(self.page.read("!document.getElementById('forecast-other').hidden"))
         status, latest = ask("/forecasts/latest")
         self.assertEqual((status, latest["state"]), (200, "DONE"))
-        submit("urgent", "sku-5", 1)
+        urgent = submit("urgent", "sku-5", 1)
         first = "document.getElementById('forecast-order')"
         self.look_ahead("order", f"page.forecast.askOrder(); {first}.value = 'urgent'")
         self.page.until(f"page.forecast.id > {latest['forecast_id']}")
@@ -134,6 +134,7 @@ class OperationsPage(WorkPageTest):
         status, answer = ask("/forecasts", {"changes": ["+0 close pick99"]})
         self.assertEqual(status, 409)
         self.assertIn("pick99", answer["detail"])
+        self.is_completed(urgent, "robots bring what is urgent")
 
     def test_1_what_if_starts_from_now(self):
         self.page.open(address() + "whatif")
@@ -184,8 +185,12 @@ class OperationsPage(WorkPageTest):
         self.press("pick1", 2)
         self.press("pick2", 1)
         self.assertEqual(pieces("sku-4").get(unit, 0), 0)
+        self.is_completed(number, "what was missing is brought from elsewhere")
+
+    def is_completed(self, number, what):
+        """Waits until an order is complete."""
         done = lambda: ask(f"/orders/{number}")[1]["state"] == "COMPLETED"  # noqa: E731
-        wait_until(done, "what was missing is brought from elsewhere", LONG)
+        wait_until(done, what, LONG)
 
     def is_for_gloves(self):
         """A screen with work has large buttons, all in sight, and nothing for axe to say."""
