@@ -160,8 +160,8 @@ class OperationsPage(WorkPageTest):
         """Asks for a forecast with a change. more: what is filled in besides."""
         options = "document.getElementById('forecast-change')"
         self.page.until(f"[...{options}.options].some((o) => o.value === '{change}')")
-        self.page.driver.execute_script("document.getElementById('forecast-minutes').value = 30")
-        self.page.driver.execute_script(f"{options}.value = '{change}'; {more}")
+        minutes = "document.getElementById('forecast-minutes').value = 30"
+        self.page.driver.execute_script(f"{minutes}; {options}.value = '{change}'; {more}")
         self.page.driver.execute_script("document.getElementById('forecast-form').requestSubmit()")
 
     def test_2_a_person_picks_and_finds_too_few(self):
@@ -263,8 +263,7 @@ class OperationsPage(WorkPageTest):
         self.page.until("page.where?.units.size > 0 && page.stage.frames > 2")
         self.page.until("document.querySelectorAll('.labels .pieces:not([hidden])').length > 0")
         number = submit("page-5", "sku-5", 1)
-        done = lambda: ask(f"/orders/{number}")[1]["state"] == "COMPLETED"  # noqa: E731
-        wait_until(done, "a piece is picked", LONG)
+        self.is_completed(number, "a piece is picked")
         # New stock may come meanwhile.
         shown = lambda: dict(self.page.read("[...page.where.units]"))  # noqa: E731
         wait_until(lambda: shown() == pieces("sku-5"), "the page shows where pieces are")

@@ -18,16 +18,18 @@ OPTIONS = (
     "--use-gl=angle",
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
-    # Text, boxes and charts: a processor draws them quicker as itself than as a graphics card.
-    "--disable-gpu-rasterization",
-    "--disable-accelerated-2d-canvas",
-    "--disable-gpu-compositing",
     "--disable-quic",
     "--no-first-run",
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
     "--hide-scrollbars",
+)
+# Text, boxes and charts: a processor draws them quicker as itself than as a graphics card.
+FRUGAL = (
+    "--disable-gpu-rasterization",
+    "--disable-accelerated-2d-canvas",
+    "--disable-gpu-compositing",
 )
 # Pages that let a person choose name the theme; others follow the system's.
 THEME = """const { dataset } = document.documentElement;
@@ -53,10 +55,9 @@ const look = () => {
   if (performance.now() < since + 1000 * settles) requestAnimationFrame(look); else done();
 };
 look();"""
-# A processor that draws sixty pictures a second does little else.
+# A processor that draws sixty pictures a second does little else; eight are enough for tests.
 SELDOM = """const draw = requestAnimationFrame;
-window.requestAnimationFrame = (act) => setTimeout(() => draw(act), 1000 / RATE);"""
-RATE = 8  # of pictures, that tests need [1/s]
+window.requestAnimationFrame = (act) => setTimeout(() => draw(act), 1000 / 8);"""
 
 
 class Browser:
@@ -85,9 +86,9 @@ class Browser:
         """Is no newcomer, in what is opened from now on."""
         self._begin_with(f"if (location.protocol.startsWith('http')) {{ {KNOWN} }}")
 
-    def draw_at(self, rate):
-        """Draws at most so many pictures a second, of what is opened from now on."""
-        self._begin_with(SELDOM.replace("RATE", str(rate)))
+    def draw_seldom(self):
+        """Has the pages that are opened from now on draw eight pictures a second at most."""
+        self._begin_with(SELDOM)
 
     def _begin_with(self, script):
         """Runs a script in each page before its own."""
@@ -220,16 +221,17 @@ class Browser:
 
 
 @contextmanager
-def browser(patience, size=(1280, 720), is_newcomer=False, rate=RATE):
+def browser(patience, size=(1280, 720), is_newcomer=False, is_frugal=True):
     """A Browser that is closed in the end, its window of that size [px].
 
-    is_newcomer: the floor's page invites, as it does a person at first. rate: of draw_at(); None:
-    as a person has it.
+    is_newcomer: the floor's page invites, as it does a person at first. is_frugal: it draws seldom,
+    and without a graphics card that the processor plays; False: as a person's browser does.
     """
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         options = webdriver.ChromeOptions()
         window = f"--window-size={size[0]},{size[1]}"
-        for option in (*OPTIONS, window, f"--user-data-dir={profile}"):
+        frugal = FRUGAL if is_frugal else ()
+        for option in (*OPTIONS, *frugal, window, f"--user-data-dir={profile}"):
             options.add_argument(option)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         driver = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
@@ -239,8 +241,8 @@ def browser(patience, size=(1280, 720), is_newcomer=False, rate=RATE):
             page = Browser(driver, patience)
             if not is_newcomer:
                 page.be_known()
-            if rate:
-                page.draw_at(rate)
+            if is_frugal:
+                page.draw_seldom()
             yield page
         finally:
             driver.quit()

@@ -37,8 +37,8 @@ class VehiclesPage(BrokerCase, PageTest):
     def setUpClass(cls):
         super().setUpClass()
         cls.start_master("99: {manufacturer: acme, serial: 'away'}\n")
-        # A vehicle says where it is as it comes, and then, standing, every half a minute: sooner
-        # seen by a master that is there before.
+        # A vehicle reports its place as it comes, and then, standing, every half a minute: a master
+        # that is there before hears the first report.
         wait_until(lambda: ask("/vda5050")[1], "the master", PATIENCE)
         cls.virtual = begin("virtual", "--broker", f"localhost:{cls.broker.port}", *VIRTUAL)
         cls.addClassCleanup(end, cls.virtual)

@@ -31,7 +31,7 @@ from warehouse_operations.store import moment
 PAUSED = 2.0  # after which a shift whose time stands still is paused [s, wall]
 HOUR = 60.0  # how far the shift is looked ahead of without a request [min]
 BUDGET = 20.0  # time for as many runs as possible [s, wall]
-MOST_SECONDS = 3600.0  # of it
+MOST_SECONDS = 3600.0  # the largest budget [s, wall]
 NAMES = ("p10", "p50", "p90")
 
 

@@ -180,6 +180,18 @@ class ExecutionTest : public testing::Test {
     now_ += kTick;
   }
 
+  /// Has a robot's new path given up, as a copy of it was refused; returns the one still under way.
+  Message giveUp(int robot) {
+    plan({straight(3)});
+    const Message late = release().front();
+    execution_.refused(robot);
+    for (int i = 0; i < 15; ++i) {
+      now_ += kTick;
+      observe();
+    }
+    return late;
+  }
+
   /// Cells that a robot's body is above.
   std::set<Cell> beneath(const SimulatedRobot& robot) const {
     std::set<Cell> cells;
@@ -405,13 +417,7 @@ TEST_F(ExecutionTest, ARefusedPathIsGivenUpOnlyWhenNoCopyOfItIsOnItsWay) {
 TEST_F(ExecutionTest, OneOnAPathThatWasGivenUpIsNotForeign) {
   const int robot = add(1, 1);
   observe();
-  plan({straight(3)});
-  const Message late = release().front();
-  execution_.refused(robot);  // a twin of it was
-  for (int i = 0; i < 15; ++i) {
-    now_ += kTick;
-    observe();
-  }
+  const Message late = giveUp(robot);
   plan({straight(3)});
   const Message next = release().front();
   ASSERT_NE(next.id, late.id);
@@ -441,13 +447,7 @@ TEST_F(ExecutionTest, OneOnAPathThatWasGivenUpIsNotForeign) {
 TEST_F(ExecutionTest, OneThatTakesItsPathAfterItWasGivenUpIsOnADroppedOne) {
   const int robot = add(1, 1);
   observe();
-  plan({straight(3)});
-  const Message late = release().front();
-  execution_.refused(robot);
-  for (int i = 0; i < 15; ++i) {
-    now_ += kTick;
-    observe();
-  }
+  const Message late = giveUp(robot);
   EXPECT_FALSE(execution_.isOnDroppedPath(robot));
   deliver(late);
   observe();
