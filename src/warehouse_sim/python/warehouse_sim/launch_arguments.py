@@ -210,6 +210,8 @@ def _shift_takes(name: str) -> Check:
     """Accepts valid values of a shift's argument of that name."""
 
     def check(text: str, place: Place) -> str:
+        if text in USUAL_OF_THE_SHIFT:
+            return ""
         from warehouse_operations.runs.simulation import ERRORS
 
         try:
@@ -222,8 +224,7 @@ def _shift_takes(name: str) -> Check:
 
 
 def _of_the_shift(name: str, text: str, place: Place) -> str:
-    # Most launches have one of these values.
-    if text in ("", "fill", "none"):
+    if text in USUAL_OF_THE_SHIFT:
         return text
     from warehouse_operations.ros import arguments
 
@@ -242,6 +243,8 @@ CHOICES = {
     "transports": ("none", "random"),
 }
 OF_THE_SHIFT = ("orders", "policies", "database")
+# What most launches have: to import a whole shift for it takes longer than the rest of the check.
+USUAL_OF_THE_SHIFT = ("", "fill", "none")
 ARGUMENTS: dict[str, Check] = {
     "name": _file_name,
     "world": _world,

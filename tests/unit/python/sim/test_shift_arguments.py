@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """What operations.launch is given is checked before anything starts."""
 
+import subprocess
+import sys
+
 import pytest
 from operations_site import site
 
@@ -54,3 +57,16 @@ def test_what_is_right_is_told_by_its_whole_path(place):
     assert not (place.cwd / "new.db").exists()
     with FileLock(place.cwd / "good.db"):
         assert "good.db: is in use by" in faults({"database": "good.db"}, place)[0]
+
+
+def test_what_most_launches_have_is_checked_without_the_import_of_a_shift():
+    program = """
+import sys
+from pathlib import Path
+from warehouse_sim.launch_arguments import Place, faults, value
+usual, place = {"orders": "none", "policies": "", "database": ""}, Path.cwd()
+assert not faults(usual, Place(place, place))
+assert [value(name, text, Place(place, place)) for name, text in usual.items()] == ["none", "", ""]
+assert "warehouse_operations.runs" not in sys.modules
+"""
+    subprocess.run([sys.executable, "-c", program], check=True)
