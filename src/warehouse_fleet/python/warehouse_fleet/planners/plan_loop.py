@@ -22,6 +22,7 @@ GUIDANCE = {  # measured
     "crowd": 10,
     "resting": 8,
     "at_lanes": 1,
+    "streets": 0,  # a warehouse's own have their directions
     "memory": 50,
     "patience": 15,
 }

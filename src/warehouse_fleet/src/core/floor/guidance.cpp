@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/floor/streets.h"
+
 namespace fleet {
 
 namespace {
@@ -28,6 +30,10 @@ std::vector<std::uint8_t> cellsAtLanes(const Floor& floor) {
   return is_near;
 }
 
+std::uint8_t costOf(double ticks) {
+  return static_cast<std::uint8_t>(std::min<long>(kMaxEdgeCost, std::lround(ticks * kTickCost)));
+}
+
 }  // namespace
 
 Guidance::Guidance(const Floor& floor, const GuidanceOptions& options)
@@ -36,7 +42,14 @@ Guidance::Guidance(const Floor& floor, const GuidanceOptions& options)
       drove_(floor.size() * kHeadings),
       waited_(floor.size()),
       is_at_lanes_(cellsAtLanes(floor)),
-      costs_(floor.size() * kHeadings, kTickCost) {}
+      is_against_(floor.size() * kHeadings),
+      costs_(floor.size() * kHeadings, kTickCost) {
+  if (options.streets == 0) return;
+  is_against_ = againstStreets(floor);
+  for (std::size_t edge = 0; edge < costs_.size(); ++edge) {
+    costs_[edge] = costOf(1 + options.streets * is_against_[edge]);
+  }
+}
 
 void Guidance::tick() {
   resting_.clear();
@@ -57,11 +70,12 @@ void Guidance::refresh() {
     for (int heading = 0; heading < kHeadings; ++heading) {
       const Cell to = floor_.next(Deck::kUnder, cell, heading);
       if (to == kNowhere) continue;
+      const int edge = cell * kHeadings + heading;
       const double met = drove_[to * kHeadings + turned(heading, 2)] * per_tick;
       const double ticks = 1 + options_.against * met + options_.crowd * waited_[to] * per_tick +
-                           options_.at_lanes * is_at_lanes_[to] + options_.resting * rests[to];
-      costs_[cell * kHeadings + heading] =
-          std::min<double>(kMaxEdgeCost, std::lround(ticks * kTickCost));
+                           options_.at_lanes * is_at_lanes_[to] + options_.resting * rests[to] +
+                           options_.streets * is_against_[edge];
+      costs_[edge] = costOf(ticks);
     }
   }
 }

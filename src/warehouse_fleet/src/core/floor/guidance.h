@@ -2,7 +2,8 @@
 //
 // The cost of each edge of the floor: a tick, and more against the traffic. It is learnt while
 // robots drive (Chen et al., Traffic Flow Optimisation for Lifelong Multi-Agent Path Finding,
-// 2024): aisles become one-way by themselves, and robots drive around crowds.
+// 2024): aisles become one-way by themselves, and robots drive around crowds. From the beginning it
+// costs more to drive against the directions that narrow streets are given (streets.h).
 #pragma once
 
 #include <cstdint>
@@ -23,6 +24,7 @@ struct GuidanceOptions {
   double resting = 0;  ///< cost of a cell where a robot rests at its goal, in ticks
   double at_lanes =
       0;  ///< cost beside stations' lanes, except for robots on their way there, in ticks
+  double streets = 0;   ///< cost against the direction of a narrow street, in ticks
   double memory = 200;  ///< ticks after which traffic counts 1/e
 };
 
@@ -51,6 +53,7 @@ class Guidance {
   std::vector<float> drove_, waited_;
   std::vector<Cell> resting_;  ///< in this tick
   std::vector<std::uint8_t> is_at_lanes_;
+  std::vector<std::uint8_t> is_against_;  ///< the street, by cell and heading
   std::vector<std::uint8_t> costs_;
 };
 

@@ -105,7 +105,7 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
   random_.seed(seed);
   guidance_ = std::make_unique<Guidance>(
       floor, GuidanceOptions{options_.against, options_.crowd, options_.resting, options_.at_lanes,
-                             options_.memory});
+                             options_.streets, options_.memory});
   closures_ = std::make_unique<Closures>(floor, guidance_->costs());
   tables_ = std::make_unique<DistanceTables>(
       floor, closures_->edges(),
