@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Narrow streets have directions in turn, and to drive against them costs more from the first tick.
-#include "core/floor/streets.h"
-
 #include "core/floor/guidance.h"
+#include "core/floor/streets.h"
 #include "planner_shift.h"
 
 namespace fleet::test {
