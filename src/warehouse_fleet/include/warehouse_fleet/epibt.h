@@ -41,7 +41,7 @@ struct EpibtOptions {
   double crowd = 5;        ///< cost of a cell where one robot a tick waits [ticks]
   double resting = 0;      ///< cost of a cell where a robot stands at its goal [ticks]
   double at_lanes = 0;     ///< cost of a cell beside a station's lane [ticks]
-  double streets = 1;      ///< cost against the direction that a narrow street is given [ticks]
+  double streets = 3;      ///< cost against the direction that a narrow street is given [ticks]
   double memory = 50;      ///< time constant of the traffic average [ticks]
 };
 

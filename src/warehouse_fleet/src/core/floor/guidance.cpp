@@ -5,14 +5,15 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/floor/streets.h"
-
 namespace fleet {
 
 namespace {
 
 /// Largest distance of a street beside a lane from that lane [cells].
 constexpr int kAtLanes = 3;
+/// Share of learnt costs that counts in streets with a direction: who meets others there can't
+/// avoid them, and a detour leads around a block.
+constexpr double kLearntInStreets = 0.3;
 
 std::vector<std::uint8_t> cellsAtLanes(const Floor& floor) {
   std::vector<std::uint8_t> is_near(floor.size());
@@ -42,12 +43,11 @@ Guidance::Guidance(const Floor& floor, const GuidanceOptions& options)
       drove_(floor.size() * kHeadings),
       waited_(floor.size()),
       is_at_lanes_(cellsAtLanes(floor)),
-      is_against_(floor.size() * kHeadings),
       costs_(floor.size() * kHeadings, kTickCost) {
   if (options.streets == 0) return;
-  is_against_ = againstStreets(floor);
+  street_ways_ = streetWays(floor);
   for (std::size_t edge = 0; edge < costs_.size(); ++edge) {
-    costs_[edge] = costOf(1 + options.streets * is_against_[edge]);
+    costs_[edge] = costOf(1 + againstStreet(edge));
   }
 }
 
@@ -70,11 +70,12 @@ void Guidance::refresh() {
     for (int heading = 0; heading < kHeadings; ++heading) {
       const Cell to = floor_.next(Deck::kUnder, cell, heading);
       if (to == kNowhere) continue;
-      const int edge = cell * kHeadings + heading;
+      const std::size_t edge = cell * kHeadings + heading;
       const double met = drove_[to * kHeadings + turned(heading, 2)] * per_tick;
-      const double ticks = 1 + options_.against * met + options_.crowd * waited_[to] * per_tick +
-                           options_.at_lanes * is_at_lanes_[to] + options_.resting * rests[to] +
-                           options_.streets * is_against_[edge];
+      const double learnt = streetWay(edge) == StreetWay::kNone ? 1 : kLearntInStreets;
+      const double ticks =
+          1 + learnt * options_.against * met + learnt * options_.crowd * waited_[to] * per_tick +
+          options_.at_lanes * is_at_lanes_[to] + options_.resting * rests[to] + againstStreet(edge);
       costs_[edge] = costOf(ticks);
     }
   }

@@ -3,12 +3,14 @@
 // The cost of each edge of the floor: a tick, and more against the traffic. It is learnt while
 // robots drive (Chen et al., Traffic Flow Optimisation for Lifelong Multi-Agent Path Finding,
 // 2024): aisles become one-way by themselves, and robots drive around crowds. From the beginning it
-// costs more to drive against the directions that narrow streets are given (streets.h).
+// costs more to drive against the directions that narrow streets are given (streets.h); what is
+// learnt counts less in these.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "core/floor/streets.h"
 #include "warehouse_fleet/floor.h"
 
 namespace fleet {
@@ -46,6 +48,14 @@ class Guidance {
   const std::vector<std::uint8_t>& costs() const { return costs_; }
 
  private:
+  StreetWay streetWay(std::size_t edge) const {
+    return street_ways_.empty() ? StreetWay::kNone : street_ways_[edge];
+  }
+  /// Returns the cost of driving against the edge's street [ticks].
+  double againstStreet(std::size_t edge) const {
+    return streetWay(edge) == StreetWay::kAgainst ? options_.streets : 0;
+  }
+
   const Floor& floor_;
   GuidanceOptions options_;
   // Weight of new traffic. It grows, so that old traffic need not be reduced at every tick.
@@ -53,7 +63,7 @@ class Guidance {
   std::vector<float> drove_, waited_;
   std::vector<Cell> resting_;  ///< in this tick
   std::vector<std::uint8_t> is_at_lanes_;
-  std::vector<std::uint8_t> is_against_;  ///< the street, by cell and heading
+  std::vector<StreetWay> street_ways_;  ///< empty without streets
   std::vector<std::uint8_t> costs_;
 };
 

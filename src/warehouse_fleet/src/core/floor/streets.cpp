@@ -52,22 +52,24 @@ std::vector<Stretch> streetsOf(const Lines& lines, int line) {
 
 }  // namespace
 
-std::vector<std::uint8_t> againstStreets(const Floor& floor) {
-  std::vector<std::uint8_t> against(floor.size() * kHeadings);
+std::vector<StreetWay> streetWays(const Floor& floor) {
+  std::vector<StreetWay> ways(floor.size() * kHeadings, StreetWay::kNone);
   for (const bool along_y : {false, true}) {
     const Lines lines(floor, along_y);
-    int backwards = turned(lines.forwards(), 2);
+    int direction = lines.forwards();
     for (int line = 0; line < lines.count(); ++line) {
       const std::vector<Stretch> streets = streetsOf(lines, line);
       for (const Stretch& street : streets) {
         for (int place = street.begin; place < street.end; ++place) {
-          against[lines.cell(line, place) * kHeadings + backwards] = 1;
+          StreetWay* of_cell = &ways[lines.cell(line, place) * kHeadings];
+          of_cell[direction] = StreetWay::kAlong;
+          of_cell[turned(direction, 2)] = StreetWay::kAgainst;
         }
       }
-      if (!streets.empty()) backwards = turned(backwards, 2);  // on the next line with streets
+      if (!streets.empty()) direction = turned(direction, 2);  // of the next line with streets
     }
   }
-  return against;
+  return ways;
 }
 
 }  // namespace fleet

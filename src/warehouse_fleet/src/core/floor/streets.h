@@ -12,9 +12,14 @@
 
 namespace fleet {
 
-/// Returns by cell and heading whether that edge leads against the direction of a narrow street. A
-/// street is a row of eight passable cells or more, two fifths of which have no passable cell on
-/// either side.
-std::vector<std::uint8_t> againstStreets(const Floor& floor);
+enum class StreetWay : std::uint8_t {
+  kNone = 0,     ///< the edge lies in no narrow street, or leads out of it
+  kAlong = 1,    ///< in the direction of its street
+  kAgainst = 2,  ///< against it
+};
+
+/// Returns each edge's way by cell and heading. A street is a row of eight passable cells or more,
+/// two fifths of which have no passable cell on either side.
+std::vector<StreetWay> streetWays(const Floor& floor);
 
 }  // namespace fleet

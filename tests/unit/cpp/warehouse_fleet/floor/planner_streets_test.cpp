@@ -18,29 +18,33 @@ constexpr int kFirst = 3, kSecond = 5, kThird = 7;  // rows
 
 class Streets : public testing::Test {
  protected:
-  bool isAgainst(int x, int y, int heading) const {
-    return against_[(y * floor_.width() + x) * kHeadings + heading] != 0;
+  StreetWay way(int x, int y, int heading) const { return ways_[edge(x, y, heading)]; }
+
+  int edge(int x, int y, int heading) const {
+    return (y * floor_.width() + x) * kHeadings + heading;
   }
 
   const Floor floor_{drawn(kHall)};
-  const std::vector<std::uint8_t> against_ = againstStreets(floor_);
+  const std::vector<StreetWay> ways_ = streetWays(floor_);
 };
 
 TEST_F(Streets, HaveOppositeDirectionsInTurn) {
   for (int x = 0; x < floor_.width(); ++x) {
     for (const int row : {kFirst, kThird}) {
-      EXPECT_TRUE(isAgainst(x, row, kWest)) << x;
-      EXPECT_FALSE(isAgainst(x, row, kEast)) << x;
+      EXPECT_EQ(way(x, row, kEast), StreetWay::kAlong) << x;
+      EXPECT_EQ(way(x, row, kWest), StreetWay::kAgainst) << x;
     }
-    EXPECT_TRUE(isAgainst(x, kSecond, kEast)) << x;
-    EXPECT_FALSE(isAgainst(x, kSecond, kWest)) << x;
+    EXPECT_EQ(way(x, kSecond, kWest), StreetWay::kAlong) << x;
+    EXPECT_EQ(way(x, kSecond, kEast), StreetWay::kAgainst) << x;
   }
 }
 
 TEST_F(Streets, AreNarrow) {
-  for (const int heading : {kEast, kWest}) EXPECT_FALSE(isAgainst(5, 1, heading));  // the open hall
+  for (const int heading : {kEast, kWest}) {
+    EXPECT_EQ(way(5, 1, heading), StreetWay::kNone);  // in the open hall
+  }
   for (int y = 0; y < floor_.height(); ++y) {
-    for (const int heading : {kNorth, kSouth}) EXPECT_FALSE(isAgainst(0, y, heading)) << y;
+    for (const int heading : {kNorth, kSouth}) EXPECT_EQ(way(0, y, heading), StreetWay::kNone) << y;
   }
 }
 
@@ -48,12 +52,25 @@ TEST_F(Streets, CostMoreAgainstTheirDirectionFromTheFirstTick) {
   GuidanceOptions options;
   options.streets = 1;
   Guidance guidance(floor_, options);
-  const int edge = (kFirst * floor_.width() + 5) * kHeadings;
   for (int tick = 0; tick < 2; ++tick) {
-    EXPECT_EQ(guidance.costs()[edge + kWest], 2 * kTickCost);
-    EXPECT_EQ(guidance.costs()[edge + kEast], kTickCost);
+    EXPECT_EQ(guidance.costs()[edge(5, kFirst, kWest)], 2 * kTickCost);
+    EXPECT_EQ(guidance.costs()[edge(5, kFirst, kEast)], kTickCost);
     guidance.tick();
     guidance.refresh();
+  }
+}
+
+TEST_F(Streets, AreAvoidedLessForTheirTraffic) {
+  GuidanceOptions options;
+  options.crowd = 10;
+  options.memory = 1;
+  for (const double streets : {0, 1}) {
+    options.streets = streets;
+    Guidance guidance(floor_, options);
+    guidance.waited(kFirst * floor_.width() + 5);
+    guidance.refresh();
+    const int learnt = guidance.costs()[edge(4, kFirst, kEast)] - kTickCost;
+    EXPECT_EQ(learnt, streets == 0 ? kMaxEdgeCost - kTickCost : 18) << streets;
   }
 }
 
