@@ -5,7 +5,7 @@ namespace fleet {
 
 namespace {
 
-constexpr int kShortest = 8;     // [cells]
+constexpr int kShortest = 16;    // [cells]; shorter ones lie in random maps by chance
 constexpr double kNarrow = 0.4;  // least share of cells with no passable cell on either side
 
 /// The floor as parallel lines of cells along a heading.

@@ -18,8 +18,8 @@ enum class StreetWay : std::uint8_t {
   kAgainst = 2,  ///< against it
 };
 
-/// Returns each edge's way by cell and heading. A street is a row of eight passable cells or more,
-/// two fifths of which have no passable cell on either side.
+/// Returns each edge's way by cell and heading. A street is a row of 16 passable cells or more, two
+/// fifths of which have no passable cell on either side.
 std::vector<StreetWay> streetWays(const Floor& floor);
 
 }  // namespace fleet

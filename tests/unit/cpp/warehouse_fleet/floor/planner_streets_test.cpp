@@ -11,9 +11,9 @@ namespace {
 constexpr int kEast = 0, kNorth = 1, kWest = 2, kSouth = 3;
 
 /// Three streets between four shelves, in a hall that is two cells wide on each side.
-const std::vector<std::string> kHall = {
-    "............", "............", "..########..", "............", "..########..", "............",
-    "..########..", "............", "..########..", "............", "............"};
+const std::string kOpen(18, '.'), kShelf = "..##############..";
+const std::vector<std::string> kHall = {kOpen,  kOpen,  kShelf, kOpen,  kShelf, kOpen,
+                                        kShelf, kOpen,  kShelf, kOpen,  kOpen};
 constexpr int kFirst = 3, kSecond = 5, kThird = 7;  // rows
 
 class Streets : public testing::Test {
@@ -46,6 +46,12 @@ TEST_F(Streets, AreNarrow) {
   for (int y = 0; y < floor_.height(); ++y) {
     for (const int heading : {kNorth, kSouth}) EXPECT_EQ(way(0, y, heading), StreetWay::kNone) << y;
   }
+}
+
+TEST_F(Streets, AreLong) {
+  std::vector<std::string> rows;
+  for (const std::string& row : kHall) rows.push_back(row.substr(3));  // 15 cells
+  for (const StreetWay way : streetWays(Floor(drawn(rows)))) EXPECT_EQ(way, StreetWay::kNone);
 }
 
 TEST_F(Streets, CostMoreAgainstTheirDirectionFromTheFirstTick) {
