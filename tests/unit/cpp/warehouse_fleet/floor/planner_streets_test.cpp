@@ -12,8 +12,8 @@ constexpr int kEast = 0, kNorth = 1, kWest = 2, kSouth = 3;
 
 /// Three streets between four shelves, in a hall that is two cells wide on each side.
 const std::string kOpen(18, '.'), kShelf = "..##############..";
-const std::vector<std::string> kHall = {kOpen,  kOpen,  kShelf, kOpen,  kShelf, kOpen,
-                                        kShelf, kOpen,  kShelf, kOpen,  kOpen};
+const std::vector<std::string> kHall = {kOpen,  kOpen, kShelf, kOpen, kShelf, kOpen,
+                                        kShelf, kOpen, kShelf, kOpen, kOpen};
 constexpr int kFirst = 3, kSecond = 5, kThird = 7;  // rows
 
 class Streets : public testing::Test {
