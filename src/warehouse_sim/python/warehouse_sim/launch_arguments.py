@@ -210,21 +210,24 @@ def _shift_takes(name: str) -> Check:
     """Accepts valid values of a shift's argument of that name."""
 
     def check(text: str, place: Place) -> str:
-        if text in USUAL_OF_THE_SHIFT:
-            return ""
-        from warehouse_operations.runs.simulation import ERRORS
-
         try:
             _of_the_shift(name, text, place)
-        except ERRORS as error:
+        except _errors_of_the_shift() as error:  # imported only once there is one
             return str(error)
         return ""
 
     return check
 
 
+def _errors_of_the_shift() -> tuple[type[Exception], ...]:
+    from warehouse_operations.runs.simulation import ERRORS
+
+    return ERRORS
+
+
 def _of_the_shift(name: str, text: str, place: Place) -> str:
-    if text in USUAL_OF_THE_SHIFT:
+    # Most launches have one of these: to import a shift for it takes longer than all else.
+    if text in ("", "fill", "none"):
         return text
     from warehouse_operations.ros import arguments
 
@@ -243,8 +246,6 @@ CHOICES = {
     "transports": ("none", "random"),
 }
 OF_THE_SHIFT = ("orders", "policies", "database")
-# What most launches have: to import a whole shift for it takes longer than the rest of the check.
-USUAL_OF_THE_SHIFT = ("", "fill", "none")
 ARGUMENTS: dict[str, Check] = {
     "name": _file_name,
     "world": _world,

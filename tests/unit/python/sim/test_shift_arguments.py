@@ -64,9 +64,9 @@ def test_what_most_launches_have_is_checked_without_the_import_of_a_shift():
 import sys
 from pathlib import Path
 from warehouse_sim.launch_arguments import Place, faults, value
-usual, place = {"orders": "none", "policies": "", "database": ""}, Path.cwd()
-assert not faults(usual, Place(place, place))
-assert [value(name, text, Place(place, place)) for name, text in usual.items()] == ["none", "", ""]
+usual, place = {"orders": "none", "policies": "", "database": ""}, Place(Path.cwd(), Path.cwd())
+assert not faults(usual, place)
+assert [value(name, text, place) for name, text in usual.items()] == ["none", "", ""]
 assert "warehouse_operations.runs" not in sys.modules
 """
     subprocess.run([sys.executable, "-c", program], check=True)
