@@ -318,6 +318,18 @@ def test_an_idle_vehicle_that_jumps_is_told_of(bench):
     assert bench.events() == []  # that it may have driven
 
 
+@pytest.mark.parametrize("seconds, is_told", [(8, False), (2, True)])
+def test_states_that_a_network_brings_all_at_once_tell_of_no_jump(bench, seconds, is_told):
+    stamp = "2026-11-29T08:00:{:02}.000Z"
+    state = replace(bench.state, header=Header(1, stamp.format(0)))
+    bench.vehicle.take_state(state, bench.now)
+    later = replace(
+        state, header=Header(2, stamp.format(seconds)), position=AgvPosition(16.0, 0.0, 0.0)
+    )
+    bench.vehicle.take_state(later, bench.now)
+    assert bool(bench.events()) == is_told
+
+
 def test_a_path_of_one_point_puts_the_vehicle_straight():
     """A vehicle that gets neither heading nor deviations takes the node as reached, and stands."""
     bench = Bench(replace(ROBOT, frame=Frame(0.0, 0.0, math.pi / 2)))

@@ -157,7 +157,7 @@ class RemoteVehicle:
 
     def take_state(self, state: VehicleState, now: float) -> None:
         """Takes the vehicle's state; drops one that is older than the last."""
-        before, heard_at, was_there = self.view.pose, self.view.heard_at, self.view.is_there
+        before, was_there = self.view.pose, self.view.is_there
         if not self.view.take_state(state, now):
             return
         self._instants.take(state)
@@ -172,7 +172,7 @@ class RemoteVehicle:
             self._advance(self._journey, state, now)
         if was_there:
             fastest = self.abilities.top_speed
-            self._check_place(jumped(before, self.view.pose, now - heard_at, fastest))
+            self._check_place(jumped(before, self.view.pose, self.view.between, fastest))
         self._end_foreign(state)
 
     def take_factsheet(self, sheet: Factsheet) -> None:

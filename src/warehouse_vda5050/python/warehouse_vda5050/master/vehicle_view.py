@@ -2,6 +2,7 @@
 """What is known of a vehicle from its messages."""
 
 from dataclasses import dataclass, field
+from datetime import datetime
 
 from warehouse_vda5050.errors import ErrorLevel
 from warehouse_vda5050.master.frame import Frame, Pose
@@ -22,6 +23,7 @@ class VehicleView:
     connection: ConnectionState | None = None
     pose: Pose = (0.0, 0.0, 0.0)  # in the frame world [m, rad]
     heard_at: float = 0.0  # when the last state came [s]
+    between: float = 0.0  # from the state before it to the last: by our clock or by its own, whichever says more [s]
     reports_loads: bool = False
     misfit: str = ""  # why it can't drive on this floor, '' if it can
     speedometer: Speedometer = field(default_factory=Speedometer, repr=False)
@@ -36,6 +38,7 @@ class VehicleView:
         time, number = stamp = state.header.timestamp, state.header.header_id
         if time <= self._stamp[0] and number <= self._stamp[1] and stamp != self._stamp:
             return False
+        self.between = max(now - self.heard_at, _seconds(self._stamp[0], time))
         self._stamp = stamp
         self.state, self.heard_at = state, now
         self.reports_loads |= bool(state.loads)
@@ -130,3 +133,12 @@ class VehicleView:
         if not self.takes_orders:
             return f"its operating mode is {self.state.mode.value}"
         return next((f"it reports {text}" for text in self.fatal), "")
+
+
+def _seconds(before: str, after: str) -> float:
+    """Returns the time between two timestamps [s]: a network may keep states back and bring them
+    all at once. 0 where they don't tell."""
+    try:
+        return (datetime.fromisoformat(after) - datetime.fromisoformat(before)).total_seconds()
+    except (ValueError, TypeError):  # TypeError: one has a time zone, and one has none
+        return 0.0
