@@ -44,8 +44,6 @@ class Publisher:
 class FakeRos:
     """Publishers and callbacks by topic; parameters as given."""
 
-    Time = SimpleNamespace(now=lambda: rospy.Time(42))
-
     def __init__(self, **parameters):
         self.parameters = {f"~{name}": value for name, value in parameters.items()}
         self.publishers, self.callbacks, self.warnings = {}, {}, []

@@ -68,6 +68,10 @@ class Engine:
         """Returns the names of all models in the world."""
         return self._call("get_world_properties", GetWorldProperties).model_names
 
+    def time(self) -> float:
+        """Returns the simulated time [s]."""
+        return self._call("get_world_properties", GetWorldProperties).sim_time
+
     def pose(self, name: str) -> tuple[float, float, float]:
         """Returns (x, y, yaw) of a model in world [m, rad]. Raises EngineError."""
         answer = self._call("get_model_state", GetModelState, name, "world")

@@ -3,10 +3,12 @@
 
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import astuple
 from types import ModuleType
 from typing import Any
 
+from genpy import Time
 from std_msgs.msg import Header
 
 from warehouse_client import identity, survey
@@ -61,8 +63,7 @@ class WarehouseService:
             success = True
         except (RequestError, LayoutFileError, EngineError) as error:
             message, success = str(error), False
-        header = Header(stamp=self._ros.Time.now(), frame_id="world")
-        return CreateWarehouseResponse(header, success, message)
+        return CreateWarehouseResponse(self._header(), success, message)
 
     def create(self, name: str, number: int = 0, counts: tuple[int, int, int] = (0, 0, 0)) -> str:
         """Builds a warehouse and returns a description of it.
@@ -91,6 +92,12 @@ class WarehouseService:
             self._finish(transaction, name, number, layout.floor, path)
         title = f"{name}: " if name else ""
         return f"{title}{request} {_where(layout)}"
+
+    def _header(self) -> Header:
+        """Returns the header of an answer, at time 0 where no world tells the time."""
+        with suppress(EngineError), Engine(self._ros) as engine:
+            return Header(stamp=Time.from_sec(engine.time()), frame_id="world")
+        return Header(frame_id="world")
 
     def _layout(self, request: Request | None, engine: Engine) -> tuple[Request, Layout]:
         """Returns (Request, Layout); request: None for the largest warehouse that fits."""

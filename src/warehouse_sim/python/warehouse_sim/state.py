@@ -82,9 +82,11 @@ class StatePublisher:
         """Waits at most `patience` [s, wall] for new messages, and publishes the state when
         it has changed, and once a PERIOD."""
         news = self._newest.wait(patience)
-        now, fit = self._ros.Time.now().to_sec(), self._newest.units_and_objects
+        fit = self._newest.units_and_objects
         if not fit:
             return
+        fleet = self._newest["fleet"]  # comes several times a second, even without robots
+        now = fleet.stamp.to_sec() if fleet else 0.0
         new_floor = self._floor.take(self._newest["scenery"])
         # The name is read in quiet moments; it is the last step of building a warehouse.
         shown = (fit[0].revision, None if news else identity.read(self._ros))

@@ -44,7 +44,7 @@ class FakeWorld(FakeRos):
         return _Proxy(call)
 
     def get_world_properties(self):
-        return SimpleNamespace(model_names=list(self.standing))
+        return SimpleNamespace(model_names=list(self.standing), sim_time=42.0)
 
     def map(self):
         return self.floor_map

@@ -13,21 +13,15 @@ from warehouse_sim.state import StatePublisher
 
 
 class World(FakeRos):
-    """A clock, two robots and a unit carried by the second."""
+    """Two robots and a unit carried by the second."""
 
     def __init__(self):
         super().__init__()
-        self.seconds = 10
         self.publisher = StatePublisher(self)
         self.topic = self.publishers["warehouse/state"]
         self.topic.connect()
 
-    @property
-    def Time(self):  # noqa: N802 (rospy's name)
-        return type("Time", (), {"now": lambda: rospy.Time(self.seconds)})
-
-    def tell(self, revision=1, seconds=10):
-        self.seconds = seconds
+    def tell(self, revision=1):
         self.callbacks["warehouse/objects"](
             WarehouseObjects(
                 revision=revision,
@@ -44,7 +38,6 @@ class World(FakeRos):
         )
 
     def drive(self, seconds):
-        self.seconds = seconds
         self.callbacks["warehouse/fleet"](
             fleet_state(
                 stamp=rospy.Time(seconds),
@@ -111,7 +104,8 @@ def test_a_new_name_is_seen_while_time_stands_still(world):
 
 
 def test_goes_on_after_time_was_reset(world):
-    world.tell(seconds=100)
+    world.tell()
+    world.drive(seconds=100)
     world.turn()
     world.drive(seconds=0)
     assert world.turn() == 1

@@ -27,22 +27,25 @@ from warehouse_viewer.json_text import JSONResponse
 NAMES = ("p10", "p50", "p90")
 FIELDS = ("at", "minutes", "runs", "changes")
 MOST_BYTES = 20_000  # of a request
-BUDGET = 20.0  # for as many runs as possible [s, wall]
+SECONDS = 20.0  # for as many runs as possible [s, wall]
 KEPT = 20  # forecasts
 
 
 class RecordedForecasts:
     """Answers requests for forecasts of the shift in a folder. A newer request takes the place of
-    one under way. warehouse: what the run was of: realism and robots."""
+    one under way. warehouse: what the run was of: realism and robots. seconds: in which a forecast
+    makes as many runs as it can, where a request does not say how many [s, wall]."""
 
-    def __init__(self, database: Path, warehouse: dict[str, Any]) -> None:
-        self._database, self._warehouse = database, warehouse
+    def __init__(
+        self, database: Path, warehouse: dict[str, Any], seconds: float = SECONDS
+    ) -> None:
+        self._database, self._warehouse, self._seconds = database, warehouse, seconds
         self._ids, self._lock = itertools.count(1), threading.Lock()
         self._results: dict[int, dict[str, Any]] = {}
         self._runs, self._newest = Runs([], 0), 0
 
     @classmethod
-    def beside(cls, recording: Path) -> "RecordedForecasts | None":
+    def beside(cls, recording: Path, seconds: float = SECONDS) -> "RecordedForecasts | None":
         """Returns the forecasts of a recording's shift; None without its database."""
         folder = recording.parent
         if not (folder / run_files.DATABASE).is_file():
@@ -52,7 +55,8 @@ class RecordedForecasts:
             config = content["config"]
         except (OSError, ValueError, KeyError, TypeError):
             config = {}
-        return cls(folder / run_files.DATABASE, config if isinstance(config, dict) else {})
+        warehouse = config if isinstance(config, dict) else {}
+        return cls(folder / run_files.DATABASE, warehouse, seconds)
 
     def routes(self) -> list[Route]:
         """Returns the routes, to be added to an application."""
@@ -109,7 +113,7 @@ class RecordedForecasts:
         with self._lock:
             self._runs.give_up()
             self._newest = number = next(self._ids)
-            self._runs = runs = Runs(prepared.tasks, asked.runs, budget=BUDGET)
+            self._runs = runs = Runs(prepared.tasks, asked.runs, budget=self._seconds)
         work = number, asked, prepared, runs
         threading.Thread(target=self._make, args=work, name="forecast", daemon=True).start()
         return number

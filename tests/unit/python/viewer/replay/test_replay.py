@@ -437,7 +437,8 @@ def faults_on_a_phone(url):
 def test_a_forecast_begins_at_the_moment_of_the_slider(tmp_path):
     done = run("simulate", "--size", "small", "--minutes", 3, "--record", "--out", tmp_path)
     assert done.returncode == 0, done.stderr
-    command = [sys.executable, NODES / "replay", tmp_path, "--port", "0", "--no-browser"]
+    options = ("--port", "0", "--no-browser", "--forecast-seconds", "1")
+    command = [sys.executable, NODES / "replay", tmp_path, *options]
     with (
         subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server,
         browser(PATIENCE, (1280, 800)) as page,
