@@ -36,9 +36,7 @@ class RecordedForecasts:
     one under way. warehouse: what the run was of: realism and robots. seconds: in which a forecast
     makes as many runs as it can, where a request does not say how many [s, wall]."""
 
-    def __init__(
-        self, database: Path, warehouse: dict[str, Any], seconds: float = SECONDS
-    ) -> None:
+    def __init__(self, database: Path, warehouse: dict[str, Any], seconds: float = SECONDS) -> None:
         self._database, self._warehouse, self._seconds = database, warehouse, seconds
         self._ids, self._lock = itertools.count(1), threading.Lock()
         self._results: dict[int, dict[str, Any]] = {}
