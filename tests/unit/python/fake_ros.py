@@ -3,8 +3,6 @@
 
 from types import SimpleNamespace
 
-import rospy
-
 from warehouse_msgs.msg import FleetState
 
 
