@@ -23,7 +23,7 @@ class VehicleView:
     connection: ConnectionState | None = None
     pose: Pose = (0.0, 0.0, 0.0)  # in the frame world [m, rad]
     heard_at: float = 0.0  # when the last state came [s]
-    between: float = 0.0  # from the state before it to the last: by our clock or by its own, whichever says more [s]
+    between: float = 0.0  # its last two states, by our clock or its own, which says more [s]
     reports_loads: bool = False
     misfit: str = ""  # why it can't drive on this floor, '' if it can
     speedometer: Speedometer = field(default_factory=Speedometer, repr=False)
