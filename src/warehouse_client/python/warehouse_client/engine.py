@@ -37,16 +37,17 @@ class Engine:
     """A client of the world with persistent connections: one thread at a time uses it, and closes
     it.
 
-    `ros` is rospy, or what stands in for it in a test.
+    `ros` is rospy, or what stands in for it in a test. patience: for the world to come up [s,
+    wall].
     """
 
-    def __init__(self, ros: Any) -> None:
-        self._ros = ros
+    def __init__(self, ros: Any, patience: float = WAIT) -> None:
+        self._ros, self._patience = ros, patience
         self._proxies: dict[str, Any] = {}
 
     def __enter__(self) -> "Engine":
         try:
-            self._ros.wait_for_service("gazebo/spawn_sdf_model", WAIT)
+            self._ros.wait_for_service("gazebo/spawn_sdf_model", self._patience)
         except self._ros.ROSException as error:
             raise EngineError(f"the world does not answer: {error}") from error
         return self

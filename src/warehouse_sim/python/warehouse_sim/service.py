@@ -27,6 +27,7 @@ from warehouse_sim import hints
 from warehouse_sim.layout_building import LayoutBuilding
 
 GREETED = "~greeted"
+CLOCK_PATIENCE = 1.0  # for the world to tell the time of an answer [s, wall]
 COORDINATOR = "coordinator/demand"  # a parameter that a launch with a coordinator sets
 
 
@@ -95,7 +96,7 @@ class WarehouseService:
 
     def _header(self) -> Header:
         """Returns the header of an answer, at time 0 where no world tells the time."""
-        with suppress(EngineError), Engine(self._ros) as engine:
+        with suppress(EngineError), Engine(self._ros, CLOCK_PATIENCE) as engine:
             return Header(stamp=Time.from_sec(engine.time()), frame_id="world")
         return Header(frame_id="world")
 

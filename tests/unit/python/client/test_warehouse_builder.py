@@ -10,14 +10,14 @@ from geometry_msgs.msg import Pose
 
 from warehouse_client import warehouse_builder
 from warehouse_client.build_transaction import BUILDING
-from warehouse_client.engine import Engine, EngineError
+from warehouse_client.engine import WAIT, Engine, EngineError
 from warehouse_layout.file.request import PRESETS, resolve
 from warehouse_layout.floor import poses
 from warehouse_layout.generate.generated import plan
 from warehouse_layout.models import models
 from warehouse_layout.models.models import FLOOR, kind_and_number
 from warehouse_msgs.srv import CreateWarehouseRequest
-from warehouse_sim.service import WarehouseService
+from warehouse_sim.service import CLOCK_PATIENCE, WarehouseService
 
 
 def service(world, lines=None):
@@ -252,6 +252,18 @@ def test_a_world_that_does_not_answer(method, error, words):
     answer = ask(world, "small")
     assert not answer.success
     assert words in answer.message
+
+
+def test_a_world_that_does_not_answer_is_waited_for_once():
+    world, waits = FakeWorld(), []
+
+    def fail(_, timeout):
+        waits.append(timeout)
+        raise world.ROSException("too late")
+
+    world.wait_for_service = fail
+    ask(world, "small")
+    assert sum(waits) <= WAIT + CLOCK_PATIENCE
 
 
 def test_engine_names_what_can_not_be_deleted():
