@@ -2,11 +2,13 @@
 """The competition's problems, run by the program, and their results looked at by themselves."""
 
 import json
+import os
+import pty
 import signal
 import subprocess
 import sys
+from contextlib import suppress
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -220,19 +222,22 @@ def test_the_program_says_what_is_wrong(made):
     assert "a whole number from 1" in run(path, "--steps", 0).stderr
 
 
-def test_interrupted_it_writes_what_it_has(made):
+def test_it_shows_its_progress_and_interrupted_writes_what_it_has(made):
     path = made(60)
     out = path.with_name("result.json")
     command = [sys.executable, PLAN, path, "--steps", "1000000", "--step-ms", "1", "--out", out]
-    process = subprocess.Popen(
-        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
-    )
-    # It says nothing before its end: its own counter of what it did tells that it plans.
-    clock = Path(f"/proc/{process.pid}/stat")
-    while int(clock.read_text().split()[13]) < 150:
-        assert process.poll() is None
+    terminal, ours = pty.openpty()
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=ours)
+    os.close(ours)
+    shown = ""
+    while "of 1,000,000 ticks" not in shown:
+        shown += os.read(terminal, 4096).decode()
     process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=60)
+    assert process.wait(timeout=60) == 130
+    errors = ""
+    with open(terminal, encoding="utf-8") as rest, suppress(OSError):  # EIO, at a terminal's end
+        for line in rest:
+            errors += line
     assert "interrupted after" in errors and "Traceback" not in errors
     assert len(json.loads(out.read_text())["start"]) == 60
 

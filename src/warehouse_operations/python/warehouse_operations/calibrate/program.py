@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from warehouse_layout.cli.progress_line import ProgressLine
 from warehouse_operations.calibrate import (
     bag,
     battery,
@@ -26,7 +27,6 @@ from warehouse_operations.calibrate.estimates import (
 from warehouse_operations.calibrate.realism_file import Line
 from warehouse_operations.calibrate.recording import CalibrationError, Recording
 from warehouse_operations.fleets.availability import KINDS
-from warehouse_operations.runs.progress import ProgressLine
 from warehouse_operations.store.engines import DatabaseError
 
 ERRORS = (CalibrationError, DatabaseError)

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from warehouse_layout.cli.progress_line import ProgressLine
 from warehouse_layout.file.layout_file import LayoutFileError
 from warehouse_layout.generate import layout_choice
 from warehouse_layout.place import placement
@@ -26,7 +27,6 @@ from warehouse_operations.policies import PolicyError
 from warehouse_operations.reports.limits import clock
 from warehouse_operations.runs import layout_site
 from warehouse_operations.runs.event_file import seconds_of
-from warehouse_operations.runs.progress import ProgressLine
 from warehouse_operations.stock.order_file import DemandError
 from warehouse_operations.stock.site import Site
 from warehouse_operations.store import moment

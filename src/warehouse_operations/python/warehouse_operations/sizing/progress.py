@@ -4,7 +4,7 @@
 import sys
 from typing import TYPE_CHECKING, TextIO
 
-from warehouse_operations.runs.progress import ProgressLine
+from warehouse_layout.cli.progress_line import ProgressLine
 from warehouse_operations.sizing.point import Point, Record
 from warehouse_operations.sizing.verdict import figures_of
 from warehouse_operations.sizing.wish import count
