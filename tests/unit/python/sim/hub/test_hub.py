@@ -29,6 +29,14 @@ def hub(tmp_path):
         out.end()
 
 
+@pytest.fixture(scope="module")
+def standing(tmp_path_factory):
+    """A hub for requests that change nothing."""
+    out = Hub(tmp_path_factory.mktemp("standing"))
+    yield out
+    out.end()
+
+
 def living(numbers):
     return [n for n in numbers if Path(f"/proc/{n}").exists()]
 
@@ -195,8 +203,8 @@ def test_what_is_kept_needs_no_simulation(hub):
         ("POST", "/api/v1/journal", {"who": "x", "action": "y", "done": 1}, 422, "done: true or"),
     ],
 )
-def test_wrong_requests_name_what_is_wrong(hub, method, path, body, status, reason):
-    answer = hub.ask(method, path, body)
+def test_wrong_requests_name_what_is_wrong(standing, method, path, body, status, reason):
+    answer = standing.ask(method, path, body)
     assert answer[0] == status and reason in answer[1]["detail"], answer
 
 
@@ -228,17 +236,18 @@ def test_what_roslaunch_leaves_is_swept(tmp_path):
 
 
 @pytest.mark.parametrize("body", ["{", "[]", '{"name": 3}', "null"])
-def test_a_body_that_is_no_wish_is_refused(hub, body):
-    request = urllib.request.Request(f"{hub.url}/api/v1/simulations", body.encode(), method="POST")
+def test_a_body_that_is_no_wish_is_refused(standing, body):
+    address = f"{standing.url}/api/v1/simulations"
+    request = urllib.request.Request(address, body.encode(), method="POST")
     with pytest.raises(urllib.error.HTTPError) as error:
         urllib.request.urlopen(request)
     assert error.value.code == 422
     assert json.loads(error.value.read())["field"] in ("body", "name")
-    assert hub.ask("GET", "/api/v1/simulations")[1] == {"simulations": []}
+    assert standing.ask("GET", "/api/v1/simulations")[1] == {"simulations": []}
 
 
-def test_without_its_packages_the_assistant_says_what_lacks(hub):
-    status, answer = hub.ask("POST", "/mcp", {})
+def test_without_its_packages_the_assistant_says_what_lacks(standing):
+    status, answer = standing.ask("POST", "/mcp", {})
     assert status == 503 and "make serve" in answer["detail"]
 
 
@@ -319,11 +328,11 @@ def test_a_question_that_is_wrong_names_its_field(body, field, tmp_path):
     assert error.value.field == field
 
 
-def test_large_layouts_may_be_sent(hub):
+def test_large_layouts_may_be_sent(standing):
     layout = "layout: 1\nfloor: |\n" + 500 * ("  " + 600 * "?" + "\n")
-    status, answer = hub.ask("POST", "/api/v1/simulations", {"name": "one", "layout": layout})
+    status, answer = standing.ask("POST", "/api/v1/simulations", {"name": "one", "layout": layout})
     assert (status, answer.get("field")) == (422, "layout"), answer
-    status, answer = hub.ask("POST", "/mcp", {"text": 100_000 * "x"})
+    status, answer = standing.ask("POST", "/mcp", {"text": 100_000 * "x"})
     assert status == 413
 
 
