@@ -20,6 +20,7 @@ MEMORY = 900_000_000  # of all processes of a forecast [bytes]
 LEAST = 200_000_000  # of a process [bytes]
 TRIES = 2  # of a run whose process is killed
 FEWEST, MOST = 5, 1000  # runs, if their number is not given
+BUDGET = 20.0  # time for them, if it is not given, either [s, wall]
 GIVEN_UP = "the forecast was given up for a newer one"
 
 
@@ -40,7 +41,7 @@ class Runs:
         count: int,
         *,
         processes: int | None = None,
-        budget: float = 20.0,
+        budget: float = BUDGET,
     ) -> None:
         self._content = pickle.dumps(list(tasks), 5)
         self._count, self._budget = count, budget

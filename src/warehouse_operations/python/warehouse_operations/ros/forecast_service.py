@@ -22,7 +22,7 @@ from warehouse_operations.forecast.ahead import Outcome, Task
 from warehouse_operations.forecast.bands import QUANTILES, SERIES, Forecast, forecast_of
 from warehouse_operations.forecast.fork import Fork, ForkError, of_shift
 from warehouse_operations.forecast.request import ForecastError, Request, tasks_of
-from warehouse_operations.forecast.workers import Runs, RunsError
+from warehouse_operations.forecast.workers import BUDGET, Runs, RunsError
 from warehouse_operations.ros.operation_messages import header
 from warehouse_operations.shift.shift import Shift
 from warehouse_operations.stock.site import Site
@@ -30,7 +30,6 @@ from warehouse_operations.store import moment
 
 PAUSED = 2.0  # after which a shift whose time stands still is paused [s, wall]
 HOUR = 60.0  # how far the shift is looked ahead of without a request [min]
-BUDGET = 20.0  # time for as many runs as possible [s, wall]
 MOST_SECONDS = 3600.0  # the largest budget [s, wall]
 NAMES = ("p10", "p50", "p90")
 

@@ -25,11 +25,12 @@ from warehouse_operations.fleets.availability import Availability, RealismError,
 from warehouse_operations.fleets.fleet_now import FleetNow
 from warehouse_operations.fleets.floor_heat import SLICES, FloorHeat
 from warehouse_operations.fleets.measured import Measured
+from warehouse_operations.forecast.workers import BUDGET
 from warehouse_operations.policies import Policies
 from warehouse_operations.ros import operation_messages
 from warehouse_operations.ros.fleet_log import FleetLog
 from warehouse_operations.ros.fleet_messages import fleet_now
-from warehouse_operations.ros.forecast_service import BUDGET, ForecastService
+from warehouse_operations.ros.forecast_service import ForecastService
 from warehouse_operations.ros.operation_messages import SHOWN, header
 from warehouse_operations.ros.remote_transports import RemoteTransports
 from warehouse_operations.ros.shift_services import ShiftServices

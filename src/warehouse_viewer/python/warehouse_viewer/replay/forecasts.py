@@ -20,14 +20,13 @@ from warehouse_operations.forecast.ahead import Outcome
 from warehouse_operations.forecast.bands import QUANTILES, SERIES, Forecast, forecast_of
 from warehouse_operations.forecast.program import Prepared
 from warehouse_operations.forecast.request import ForecastError, Request
-from warehouse_operations.forecast.workers import Runs, RunsError
+from warehouse_operations.forecast.workers import BUDGET, Runs, RunsError
 from warehouse_operations.runs import run_files
 from warehouse_viewer.json_text import JSONResponse
 
 NAMES = ("p10", "p50", "p90")
 FIELDS = ("at", "minutes", "runs", "changes")
 MOST_BYTES = 20_000  # of a request
-SECONDS = 20.0  # for as many runs as possible [s, wall]
 KEPT = 20  # forecasts
 
 
@@ -36,14 +35,14 @@ class RecordedForecasts:
     one under way. warehouse: what the run was of: realism and robots. seconds: in which a forecast
     makes as many runs as it can, where a request does not say how many [s, wall]."""
 
-    def __init__(self, database: Path, warehouse: dict[str, Any], seconds: float = SECONDS) -> None:
+    def __init__(self, database: Path, warehouse: dict[str, Any], seconds: float = BUDGET) -> None:
         self._database, self._warehouse, self._seconds = database, warehouse, seconds
         self._ids, self._lock = itertools.count(1), threading.Lock()
         self._results: dict[int, dict[str, Any]] = {}
         self._runs, self._newest = Runs([], 0), 0
 
     @classmethod
-    def beside(cls, recording: Path, seconds: float = SECONDS) -> "RecordedForecasts | None":
+    def beside(cls, recording: Path, seconds: float = BUDGET) -> "RecordedForecasts | None":
         """Returns the forecasts of a recording's shift; None without its database."""
         folder = recording.parent
         if not (folder / run_files.DATABASE).is_file():
