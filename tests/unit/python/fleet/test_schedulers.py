@@ -31,6 +31,11 @@ def test_a_short_task_comes_before_a_long_one_as_far_away():
     assert dealt(of([[2, 19], [8, 9]], [5]), [NOWHERE], [0], [5]) == {0: 1}
 
 
+def test_robots_come_farther_where_more_tasks_wait(monkeypatch):
+    monkeypatch.setattr(schedulers, "QUEUE", 1.5)
+    assert dealt(of([[8, 9], [13, 14], [13, 14]], [10]), [NOWHERE], [0], [10]) == {0: 1}
+
+
 def test_a_nearer_robot_takes_a_task_over_that_is_not_begun():
     scheduler = of([[10, 11], [19, 18], [0, 1]], [0, 9], reveal=1)
     assert dealt(scheduler, [NOWHERE, NOWHERE], [0, 0], [9, 18]) == {0: 0, 1: 1}
@@ -68,3 +73,14 @@ def test_large_fleets_are_dealt_tasks_in_parts(monkeypatch):
     monkeypatch.setattr(schedulers, "MOST_PAIRS", 4)
     scheduler = of([[i, i] for i in range(6)], [0, 1, 2, 3, 4, 5], reveal=1)
     assert sorted(dealt(scheduler, [NOWHERE] * 6, [0] * 6, range(6)).values()) == [*range(6)]
+
+
+def test_of_large_fleets_some_are_weighed_again(monkeypatch):
+    scheduler = of([[19, 19], [18, 18], [17, 17], [0, 0], [2, 2]], [0, 19, 18, 17], reveal=1)
+    first = dealt(scheduler, [NOWHERE] * 4, [0] * 4, [0, 19, 18, 17])
+    assert first == {0: 3, 1: 0, 2: 1, 3: 2}
+    # The first robot has gone to where the others want to, and they to where a task is revealed.
+    monkeypatch.setattr(schedulers, "MOST_PAIRS", 4)
+    then = dealt(scheduler, [NOWHERE, 0, 1, 2], [0] * 4, [19, 1, 2, 3], finished=1)
+    (other,) = then.keys() - {0}
+    assert then == {0: first[other], other: 4}
