@@ -37,12 +37,14 @@ struct EpibtOptions {
   int table_work = 1500;   ///< states per robot in distance tables that a step may make
   int renewal_work = 200;  ///< states per robot in distance tables that a step may renew
   int renewal_age = 20;    ///< age at which a table is renewed, within renewal_work [ticks]
-  double against = 10;     ///< cost of one oncoming robot a tick [ticks]
-  double crowd = 5;        ///< cost of a cell where one robot a tick waits [ticks]
-  double resting = 0;      ///< cost of a cell where a robot stands at its goal [ticks]
-  double at_lanes = 0;     ///< cost of a cell beside a station's lane [ticks]
-  double streets = 3;      ///< cost against the direction that a narrow street is given [ticks]
-  double memory = 50;      ///< time constant of the traffic average [ticks]
+  /// Cost of one oncoming robot a tick [ticks]; -1: 10, or 3 in windows, in which robots evade each
+  /// other in time.
+  double against = -1;
+  double crowd = 5;     ///< cost of a cell where one robot a tick waits [ticks]
+  double resting = 0;   ///< cost of a cell where a robot stands at its goal [ticks]
+  double at_lanes = 0;  ///< cost of a cell beside a station's lane [ticks]
+  double streets = 3;   ///< cost against the direction that a narrow street is given [ticks]
+  double memory = 50;   ///< time constant of the traffic average [ticks]
 };
 
 std::unique_ptr<Planner> makeEpibt(const EpibtOptions& options = {});

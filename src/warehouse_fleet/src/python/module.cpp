@@ -260,7 +260,8 @@ first step has time for it), horizon (ticks of a plan, up to 7; 0: depth), turn_
 exchanges, patience [ticks], pursuing (share of the passable cells), window (ticks of the windows for
 few robots with much time, 7 to 31; 0: 15 where the first step has time for it; -1: none),
 goals_are_stops, table_bytes, whole_up_to [cells], threads (0: one a core), table_work, renewal_work,
-renewal_age [ticks], against, crowd, resting, at_lanes, streets, memory [ticks]. TypeError for another option.)");
+renewal_age [ticks], against (-1: 10, or 3 in windows), crowd, resting, at_lanes, streets, memory [ticks].
+TypeError for another option.)");
   module.def(
       "load_planner",
       [](const std::string& path, const std::string& class_name, std::shared_ptr<Floor> floor,

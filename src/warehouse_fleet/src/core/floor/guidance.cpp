@@ -61,7 +61,7 @@ void Guidance::tick() {
   gain_ = 1;
 }
 
-void Guidance::refresh() {
+void Guidance::refresh(double against) {
   // A sum with exponential forgetting converges to memory * mean.
   const double per_tick = 1 / (gain_ * options_.memory);
   std::vector<std::uint8_t> rests(floor_.size());
@@ -74,7 +74,7 @@ void Guidance::refresh() {
       const double met = drove_[to * kHeadings + turned(heading, 2)] * per_tick;
       const double learnt = streetWay(edge) == StreetWay::kNone ? 1 : kLearntInStreets;
       const double ticks =
-          1 + learnt * options_.against * met + learnt * options_.crowd * waited_[to] * per_tick +
+          1 + learnt * against * met + learnt * options_.crowd * waited_[to] * per_tick +
           options_.at_lanes * is_at_lanes_[to] + options_.resting * rests[to] + againstStreet(edge);
       costs_[edge] = costOf(ticks);
     }

@@ -21,7 +21,6 @@ constexpr int kTickCost = 6;
 constexpr int kMaxEdgeCost = 60;
 
 struct GuidanceOptions {
-  double against = 0;  ///< cost of one oncoming robot a tick, in ticks
   double crowd = 0;    ///< cost of a cell in which one robot a tick waits, in ticks
   double resting = 0;  ///< cost of a cell where a robot rests at its goal, in ticks
   double at_lanes =
@@ -42,8 +41,9 @@ class Guidance {
   /// Ends the tick.
   void tick();
 
-  /// Updates the costs by the recorded traffic.
-  void refresh();
+  /// Updates the costs by the recorded traffic. against: cost of one oncoming robot a tick, in
+  /// ticks.
+  void refresh(double against);
   /// Returns the costs by cell and heading [kTickCost].
   const std::vector<std::uint8_t>& costs() const { return costs_; }
 

@@ -65,6 +65,7 @@ class Epibt : public Planner {
   void beginSearch(const Fleet& fleet, const Budget& budget);
   void chooseWindow(const Fleet& fleet, const Budget& budget);
   void updateFleet(const Fleet& fleet);
+  double against() const;
   void wish(const Fleet& fleet);
   void replan(bool is_crowded);
   std::function<bool()> limit(const Budget& budget) const;
@@ -98,14 +99,15 @@ class Epibt : public Planner {
   std::unique_ptr<PushSearch> search_;
   std::unique_ptr<ChainSearch> chains_;
   std::unique_ptr<WindowSearch> windows_;
+  bool is_in_windows_ = false;  ///< the last plan
 };
 
 void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
   floor_ = &floor;
   random_.seed(seed);
   guidance_ = std::make_unique<Guidance>(
-      floor, GuidanceOptions{options_.against, options_.crowd, options_.resting, options_.at_lanes,
-                             options_.streets, options_.memory});
+      floor, GuidanceOptions{options_.crowd, options_.resting, options_.at_lanes, options_.streets,
+                             options_.memory});
   closures_ = std::make_unique<Closures>(floor, guidance_->costs());
   tables_ = std::make_unique<DistanceTables>(
       floor, closures_->edges(),
@@ -196,8 +198,14 @@ void Epibt::updateFleet(const Fleet& fleet) {
   }
   constexpr int kRefresh = 10;
   if (now_ % kRefresh != 0) return;
-  guidance_->refresh();
+  guidance_->refresh(against());
   tables_->reprice();
+}
+
+double Epibt::against() const {
+  constexpr double kUnforeseen = 10, kForeseen = 3;
+  if (options_.against >= 0) return options_.against;
+  return is_in_windows_ ? kForeseen : kUnforeseen;
 }
 
 void Epibt::wish(const Fleet& fleet) {
@@ -240,13 +248,13 @@ std::function<bool()> Epibt::limit(const Budget& budget) const {
 }
 
 void Epibt::search(bool is_crowded, const std::function<bool()>& goes_on) {
-  const bool in_windows = windows_ != nullptr && !is_crowded && windows_->canPlan();
-  if (!in_windows || !windows_->inherit()) {
+  is_in_windows_ = windows_ != nullptr && !is_crowded && windows_->canPlan();
+  if (!is_in_windows_ || !windows_->inherit()) {
     candidates_->find(wishes_, threads_);
     replan(is_crowded);
-    if (in_windows) windows_->adopt(*reserved_, options_.horizon);
+    if (is_in_windows_) windows_->adopt(*reserved_, options_.horizon);
   }
-  if (!in_windows) return improve(goes_on);
+  if (!is_in_windows_) return improve(goes_on);
   windows_->improve(goes_on, random_);
   windows_->write(*reserved_, options_.horizon);
 }

@@ -62,7 +62,7 @@ TEST_F(Streets, CostMoreAgainstTheirDirectionFromTheFirstTick) {
     EXPECT_EQ(guidance.costs()[edge(5, kFirst, kWest)], 2 * kTickCost);
     EXPECT_EQ(guidance.costs()[edge(5, kFirst, kEast)], kTickCost);
     guidance.tick();
-    guidance.refresh();
+    guidance.refresh(0);
   }
 }
 
@@ -74,7 +74,7 @@ TEST_F(Streets, AreAvoidedLessForTheirTraffic) {
     options.streets = streets;
     Guidance guidance(floor_, options);
     guidance.waited(kFirst * floor_.width() + 5);
-    guidance.refresh();
+    guidance.refresh(0);
     const int learnt = guidance.costs()[edge(4, kFirst, kEast)] - kTickCost;
     EXPECT_EQ(learnt, streets == 0 ? kMaxEdgeCost - kTickCost : 18) << streets;
   }

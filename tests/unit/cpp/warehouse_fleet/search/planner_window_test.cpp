@@ -42,6 +42,23 @@ TEST(Window, IsRepeatable) {
   EXPECT_NE(cells[0], cells[2]);
 }
 
+/// Returns where robots are after 60 ticks. ticks: of a window. against: cost of an oncoming robot.
+std::vector<Cell> after60(int ticks, double against) {
+  EpibtOptions options = windowed(ticks);
+  options.against = against;
+  Errands errands(kScattered, 24, {}, options);
+  errands.run(60, {0, 50});
+  return errands.fleet.cell;
+}
+
+TEST(Window, CountsOncomingRobotsLess) {
+  constexpr int kNone = -1, kAutomatic = -1;
+  EXPECT_EQ(after60(15, kAutomatic), after60(15, 3));
+  EXPECT_EQ(after60(kNone, kAutomatic), after60(kNone, 10));
+  EXPECT_NE(after60(15, 3), after60(15, 10));
+  EXPECT_NE(after60(kNone, 3), after60(kNone, 10));
+}
+
 TEST(Window, GoesOnAfterStopsThatWereNotPlanned) {
   Errands errands(kScattered, 24, withRings(true), windowed(15));
   std::mt19937_64 random(2);
