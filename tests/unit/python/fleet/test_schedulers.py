@@ -33,7 +33,9 @@ def test_a_short_task_comes_before_a_long_one_as_far_away():
 
 def test_robots_come_farther_where_more_tasks_wait(monkeypatch):
     monkeypatch.setattr(schedulers, "QUEUE", 1.5)
-    assert dealt(of([[8, 9], [13, 14], [13, 14]], [10]), [NOWHERE], [0], [10]) == {0: 1}
+    for waiting, first in ((schedulers.CHANCE, 0), (schedulers.CHANCE + 1, 1)):
+        tasks = [[8, 9], *([13, 14] for _ in range(waiting))]
+        assert dealt(of(tasks, [10], len(tasks)), [NOWHERE], [0], [10]) == {0: first}
 
 
 def test_a_nearer_robot_takes_a_task_over_that_is_not_begun():

@@ -19,6 +19,7 @@ MOST_TABLE = 4_000  # cells of a map with a table of all ways, of 64 MB
 MOST_PAIRS = 1_000_000  # robots times tasks that are weighed at once
 WEIGHT = 0.1  # of a task's length beside the way to it
 QUEUE = 0.01  # of tasks' mean length, by which robots come farther for each that waits at a place
+CHANCE = 3  # tasks that wait at a place by chance; robots come farther for more
 STAY = 1.0  # cells by which another robot has to be nearer to take over a task
 UNREACHABLE = 1e6  # cells
 
@@ -149,7 +150,8 @@ class Shortest:
         rows = tasks % len(self._start)  # after the last task comes the first one again
         starts = self._start[rows]
         ways = self._ways.between(cell[:, None], starts)
-        return ways + WEIGHT * self._length[rows] - self._queue * np.bincount(starts)[starts]
+        queues = np.maximum(np.bincount(starts) - CHANCE, 0)[starts]
+        return ways + WEIGHT * self._length[rows] - self._queue * queues
 
 
 class _Ways:
