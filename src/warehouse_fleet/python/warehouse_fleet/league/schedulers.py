@@ -18,8 +18,8 @@ NOWHERE = -1  # no task
 MOST_TABLE = 4_000  # cells of a map with a table of all ways, of 64 MB
 MOST_PAIRS = 1_000_000  # robots times tasks that are weighed at once
 WEIGHT = 0.1  # of a task's length beside the way to it
-QUEUE = 0.01  # of tasks' mean length, by which robots come farther for each that waits at a place
-CHANCE = 3  # tasks that wait at a place by chance; robots come farther for more
+CHANCE = 3  # tasks that may wait at a place by chance
+QUEUE = 0.01  # of the tasks' mean length: robots come so much farther for each task above CHANCE
 STAY = 1.0  # cells by which another robot has to be nearer to take over a task
 UNREACHABLE = 1e6  # cells
 
@@ -97,9 +97,8 @@ class Shortest:
         idle = self._next(np.flatnonzero(task == NOWHERE), cell)
         if not len(idle):
             return
-        waits = np.union1d(
-            idle, self._some(np.flatnonzero((task != NOWHERE) & (errand == 0)), len(idle))
-        )
+        going = np.flatnonzero((task != NOWHERE) & (errand == 0))
+        waits = np.union1d(idle, self._some(going, len(idle)))
         held = task[waits]
         self._open += held[held != NOWHERE].tolist()
         while len(waits) and self._open:
@@ -128,8 +127,11 @@ class Shortest:
         return np.sort(idle[np.argsort(np.concatenate(nearest), kind="stable")[:room]])
 
     def _some(self, going: Cells, idle: int) -> Cells:
-        """Returns as many of the robots on their way to a task, drawn at random, as can be weighed
-        with so many idle ones: k for which (idle + k) * (open + k) is MOST_PAIRS at most."""
+        """Draws those robots on their way to a task that are weighed again beside `idle` idle ones.
+
+        They are as many as keep the table of robots and tasks at MOST_PAIRS or fewer: each robot
+        adds a row, and a column for the task that it holds.
+        """
         tasks = len(self._open)
         most = (math.sqrt((idle - tasks) ** 2 + 4 * MOST_PAIRS) - idle - tasks) / 2
         if len(going) <= most:

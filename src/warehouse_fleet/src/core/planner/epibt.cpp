@@ -99,7 +99,7 @@ class Epibt : public Planner {
   std::unique_ptr<PushSearch> search_;
   std::unique_ptr<ChainSearch> chains_;
   std::unique_ptr<WindowSearch> windows_;
-  bool is_in_windows_ = false;  ///< the last plan
+  bool is_in_windows_ = false;  ///< whether the last plan was made in windows
 };
 
 void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
