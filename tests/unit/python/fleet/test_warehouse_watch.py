@@ -12,15 +12,20 @@ from warehouse_fleet.hosts import warehouse_watch
 from warehouse_fleet.hosts.coordinator_messages import _alarms
 from warehouse_fleet.hosts.warehouse_watch import REPEATED, WarehouseWatch
 from warehouse_fleet.robots.robot_table import RobotTable
-from warehouse_msgs.msg import Event
+from warehouse_msgs.msg import Event, Look, Scenery
 
 NO = "orderError: 'the brake is on'"
 
 
 @pytest.fixture
-def watch(monkeypatch):
+def ros(monkeypatch):
     ros = FakeRos()
     monkeypatch.setattr(warehouse_watch, "rospy", ros)
+    return ros
+
+
+@pytest.fixture
+def watch(ros):
     watch = WarehouseWatch()
     refusal = Event(kind=Event.REFUSED, model="kiva3", text=NO)
     refusal.header.stamp = rospy.Time(100)
@@ -42,3 +47,18 @@ def test_the_alarm_of_a_robot_that_refuses_has_its_words(watch):
         f"kiva3 does not move: it refuses what it is sent ({NO})",
         "kiva4 does not move",
     ]
+
+
+def test_a_floor_that_changes_while_time_stands_still_is_news_and_a_box_is_not(ros, watch):
+    def came(*models):
+        looks = dict.fromkeys(("kiva_look", "storage_unit_look", "item_look"), -1)
+        poses = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0] * len(models)
+        fields = {"looks": [Look()], "model_look": [0] * len(models), "pose": poses}
+        scenery = Scenery(models=models, grid_spacing=1.0, **fields, **looks)
+        ros.callbacks["warehouse/scenery"](scenery)
+        return watch.news.wait(0)
+
+    assert not came(), "it begins without: there is no other floor before the first"
+    assert came("conveyor_belt1")
+    assert not came("conveyor_belt1", "box")
+    assert came("conveyor_belt1", "box", "conveyor_belt2")

@@ -94,7 +94,7 @@ class CoordinatorNode:
             has_news = self._watch.news.wait(0.2)
             fleet = self._watch.fleet
             # What it lacks to begin may come after the only report while time stands still.
-            if has_news or (fleet is not None and self.controller is None):
+            if fleet is not None and (has_news or self.controller is None):
                 with self.lock:
                     self._step(fleet)
                 self._keep_pace(fleet)

@@ -33,7 +33,8 @@ REPEATED = 45.0
 class WarehouseWatch:
     """The latest message of each topic, and the events since the last take.
 
-    `news` is set by each FleetState. `by_hand`: names of stations where a person works.
+    `news` is set by each FleetState, and by another floor: a warehouse may be built while time
+    stands still, and no FleetState follows. `by_hand`: names of stations where a person works.
     """
 
     def __init__(self) -> None:
@@ -66,8 +67,12 @@ class WarehouseWatch:
     def _on_scenery(self, message: Scenery) -> None:
         """Keeps a scenery that has changed; it is sent again for each new subscriber."""
         message.header = Header()
-        if message != self.scenery:
-            self.scenery = message
+        before = self.scenery
+        if message == before:
+            return
+        self.scenery = message
+        if before is not None and not is_same_floor(message, before):
+            self.news.set()
 
     def _on_stations(self, message: StationStates) -> None:
         manual = [
