@@ -27,7 +27,7 @@ def now():
 class Awaited(unittest.TestCase):
     def test_time_stands_until_the_last_is_ready(self):
         keeper = PaceKeeper(START)
-        keeper.acted_upon(rospy.Time())  # what it is awaited for lasts longer than ten seconds
+        keeper.acted_upon(rospy.Time())  # however long the others take to start
         state = latched("/warehouse/coordinator", CoordinatorState, lambda s: len(s.station) > 0)
         self.assertAlmostEqual(state.header.stamp.to_sec(), START, delta=1e-6)
         self.assertAlmostEqual(now(), START, delta=1e-6)

@@ -22,8 +22,9 @@ class PaceKeeper:
 
     def __init__(self, lookahead: float) -> None:
         self._lookahead = rospy.Duration.from_sec(lookahead)
-        # Latched: what was said before the world has found this node still holds.
-        self._publisher = rospy.Publisher("warehouse/pace", Pace, latch=True, queue_size=10)
+        # Latched: what was said before the world has found this node still holds. Who records it
+        # hears all of it, however busy the machine: hundreds may come within a second.
+        self._publisher = rospy.Publisher("warehouse/pace", Pace, latch=True, queue_size=1000)
         self._is_waited_for = False
         rospy.on_shutdown(self.release)
 

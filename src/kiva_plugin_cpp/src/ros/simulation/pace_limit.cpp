@@ -29,10 +29,15 @@ bool PaceLimit::holds(double time) const {
 std::vector<PaceLimit::Silent> PaceLimit::releaseSilent(double time,
                                                         WallClock::time_point stands_since,
                                                         WallClock::time_point now) {
+  const bool is_starting = std::any_of(grants_.begin(), grants_.end(), [time](const auto& entry) {
+    return !entry.second.hasStarted() && entry.second.holds(time);
+  });
+  if (is_starting) last_start_ = now;
   std::vector<Silent> out;
   for (auto it = grants_.begin(); it != grants_.end();) {
     const Grant& grant = it->second;
-    const auto silent_since = std::max(grant.given_at, stands_since);
+    auto silent_since = std::max(grant.given_at, stands_since);
+    if (grant.hasStarted()) silent_since = std::max(silent_since, last_start_);
     const bool is_silent = grant.holds(time) && now >= silent_since + grant.patience;
     if (is_silent) out.push_back({it->first, grant.patience});
     it = is_silent ? grants_.erase(it) : std::next(it);

@@ -34,7 +34,8 @@ class PaceLimit {
     std::chrono::seconds patience;  ///< For how long time has waited for it.
   };
   /// Releases the nodes that keep time from passing `time` [s] and have said nothing for too long
-  /// while it has stood there, since `stands_since`. Returns them.
+  /// while it has stood there, since `stands_since`. Returns them. As long as time waits for one
+  /// that is still to start, those that have started keep nothing waiting.
   std::vector<Silent> releaseSilent(double time, WallClock::time_point stands_since,
                                     WallClock::time_point now);
 
@@ -45,9 +46,11 @@ class PaceLimit {
     std::chrono::seconds patience = kMostSilence;
 
     bool holds(double time) const;
+    bool hasStarted() const { return patience != kMostStart; }
   };
 
   std::map<std::string, Grant> grants_;  ///< By the node's name.
+  WallClock::time_point last_start_;     ///< When time last waited for a node to start.
 };
 
 }  // namespace kiva_ros

@@ -61,6 +61,23 @@ TEST_F(Limit, ANodeThatIsStillToStartIsWaitedForAMinute) {
   EXPECT_EQ(silent(0.1, now_, now_ + seconds(60)), Names({"/shift"}));
 }
 
+TEST_F(Limit, WhoHasStartedIsNotSilentAsLongAsTimeWaitsForAnotherToStart) {
+  limit_.await("/fleet", 0.1, now_);
+  limit_.allow("/shift", 0.1, now_);
+  EXPECT_EQ(silent(0.1, now_, now_ + seconds(40)), Names()) << "it is /fleet that keeps time";
+  limit_.allow("/fleet", 0.4, now_ + seconds(40));
+  EXPECT_EQ(silent(0.1, now_, now_ + seconds(49)), Names());
+  EXPECT_EQ(silent(0.1, now_, now_ + seconds(50)), Names({"/shift"}));
+}
+
+TEST_F(Limit, WhoHasStartedIsGivenTenSecondsMoreOnceTheOtherIsWaitedForNoLonger) {
+  limit_.await("/fleet", 0.1, now_);
+  limit_.allow("/shift", 0.1, now_);
+  EXPECT_EQ(silent(0.1, now_, now_ + seconds(60)), Names({"/fleet"}));
+  EXPECT_EQ(silent(0.1, now_, now_ + seconds(69)), Names());
+  EXPECT_EQ(silent(0.1, now_, now_ + seconds(70)), Names({"/shift"}));
+}
+
 TEST_F(Limit, StepsThatRoundADecimalTimeStopAtIt) {
   limit_.allow("/fleet", 0.1 + 0.2, now_);
   double time = 0;
