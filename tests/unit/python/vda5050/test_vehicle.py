@@ -346,6 +346,16 @@ def test_refused_path_is_told_and_tried_again():
     assert bench.until(is_over).last_node == "c2_0"
 
 
+def test_a_late_report_of_a_path_is_counted_although_another_command_was_refused():
+    bench = Bench()
+    bench.order("o", row(0, 2))
+    now = replace(bench.robot.report(), path_id=0, busy=False, refusal="it is not idle")
+    bench.robot.report = lambda: now
+    bench.tick(2)  # the robot drives; its reports are late, and a refusal of before came
+    del bench.robot.report
+    assert bench.until(is_over).last_node == "c2_0"
+
+
 def test_mode_that_changes_ends_the_order():
     bench = Bench()
     bench.order("o", row(0, 9))

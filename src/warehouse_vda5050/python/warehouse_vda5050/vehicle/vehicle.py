@@ -231,6 +231,7 @@ class Vehicle:
     def _end_cancel(self) -> None:
         assert self.order
         self.order.cancel()
+        self.wheels.forget_refused()
         self._go_to(Phase.HELD if self.wheels.rest else Phase.HALTED)
         self.instant.end("cancelOrder")
         self.journal.write(f"order {self.order.id} is cancelled")

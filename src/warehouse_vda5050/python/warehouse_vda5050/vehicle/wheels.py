@@ -39,6 +39,7 @@ class Wheels:
         self._driver, self.grid = driver, grid
         self._next_path = first_path
         self._leg: Leg | None = None
+        self._refused: dict[int, Leg] = {}  # of this order; the refusal may be of something else
         self._retry_at = 0.0
         self._cancelled_at: float | None = None
         self.fault = ""  # why the robot does not drive on, '' if it does or need not
@@ -51,9 +52,15 @@ class Wheels:
     def begin(self) -> None:
         """Prepares for a new order."""
         self.fault, self._retry_at, self._cancelled_at = "", 0.0, None
+        self.forget_refused()
+
+    def forget_refused(self) -> None:
+        """Counts no longer what the robot may take all the same of the paths that it refused."""
+        self._refused.clear()
 
     def count(self, report: Report, now: float) -> int:
         """Returns the count of nodes reached since the last call; ends a leg that is over."""
+        self._recognise(report)
         leg = self._leg
         if leg is None:
             return 0
@@ -61,10 +68,21 @@ class Wheels:
             return self._count_heard(leg, report)
         refused = report.refusal and now - leg.sent > 0.5
         if refused or (self._cancelled_at and now - leg.sent > PATIENCE):
+            self._refused[leg.path_id] = leg
             self._leg = None
             self.fault = report.refusal
             self._retry_at = now + RETRY
         return 0
+
+    def _recognise(self, report: Report) -> None:
+        """Takes up a leg again that seemed to be refused, and that the robot drives after all: what
+        was refused was another command, and the report of this one came late."""
+        leg = self._refused.pop(report.path_id, None)
+        if leg is None:
+            return
+        if self._leg:
+            self._refused[self._leg.path_id] = self._leg
+        self._leg = leg
 
     def _count_heard(self, leg: Leg, report: Report) -> int:
         leg.heard = True
