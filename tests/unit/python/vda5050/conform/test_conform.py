@@ -52,6 +52,28 @@ def test_what_a_busy_machine_delivers_together_is_not_taken_for_one_moment():
     assert results[-1].verdict is Verdict.CONFORMS, results[-1].reason
 
 
+@pytest.mark.parametrize(
+    ("elsewhere", "verdict"), [({3}, Verdict.CONFORMS), ({3, 4, 5, 6, 7, 8}, Verdict.DIFFERS)]
+)
+def test_a_vehicle_held_up_once_between_measuring_and_sending_conforms(elsewhere, verdict):
+    wire = PaperWire()
+    runner, take, shown = runner_for(wire=wire), wire.take, []
+
+    def take_some_from_elsewhere(message):
+        if message.topic.endswith("visualization"):
+            shown.append(message)
+            if len(shown) in elsewhere:
+                value = json.loads(message.payload)
+                value["agvPosition"]["x"] += 3.0
+                message = message._replace(payload=json.dumps(value).encode())
+        take(message)
+
+    wire.take = take_some_from_elsewhere
+    driven = ("order.", "progress.agreement")
+    results = [*runner.run([c for c in cases_of("2.1.0") if c.id.startswith(driven)])]
+    assert results[-1].verdict is verdict, results[-1].reason
+
+
 def test_each_case_has_its_own_id_and_a_section():
     ids = [case.id for case in CASES]
     assert len(set(ids)) == len(ids) > 200
