@@ -8,6 +8,7 @@ import sys
 import time
 from pathlib import Path
 
+from warehouse_layout.cli.progress_line import ProgressLine
 from warehouse_vda5050.mqtt.loop import Link, MqttLoop
 from warehouse_vda5050.mqtt.options import add_options, settings_of
 from warehouse_vda5050.recording import file
@@ -17,7 +18,7 @@ from warehouse_vda5050.recording.player import Extent, Player
 DESCRIPTION = """Sends the messages of a recording to a broker, in their order and with the time
 between them. The broker keeps connections and factsheets, as when they were sent first. The whole
 file is read before the first message goes out. Ctrl-C ends it."""
-PERIOD = 1.0  # between two lines about the progress [s]
+PERIOD = 1.0  # between two looks at the progress [s]
 PATIENCE = 10.0  # for the first connection [s]
 
 
@@ -50,14 +51,16 @@ def _replay(options: argparse.Namespace, extent: Extent) -> int:
     loop = MqttLoop()
     link = loop.add(Link(f"replay-{time.time_ns()}", settings_of(options), [], lambda *_: None))
     player = Player(loop, link, options.speed)
+    progress = _Progress(player, extent)
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: setattr(player, "stopped", True))
     try:
         _connect(loop, link, player)
         seconds = extent.seconds / options.speed
         print(f"replay: {extent.count} messages in {seconds:.1f} s; Ctrl-C ends it", flush=True)
-        player.play(file.read(options.file), _Progress(player, extent).show)
+        player.play(file.read(options.file), progress.show)
     finally:
+        progress.clear()
         link.close()
         loop.close()
     whole = player.sent == extent.count
@@ -74,19 +77,21 @@ def _connect(loop: MqttLoop, link: Link, player: Player) -> None:
 
 
 class _Progress:
-    """Prints how far a replay is."""
+    """Tells how far a replay is."""
 
     def __init__(self, player: Player, extent: Extent) -> None:
-        self._player, self._extent, self._shown = player, extent, time.monotonic()
+        self._player, self._extent = player, extent
+        self._line = ProgressLine(sys.stdout, period=PERIOD)
 
     def show(self) -> None:
-        """Prints it, once a PERIOD."""
-        if time.monotonic() - self._shown < PERIOD:
+        """Shows it, if it is time to."""
+        if not self._line.is_due():
             return
-        self._shown = time.monotonic()
         player, extent = self._player, self._extent
         at = max(0.0, player.time - extent.begin) if player.sent else 0.0
-        print(
-            f"replay: {at:.1f} of {extent.seconds:.1f} s, {player.sent} of {extent.count} messages",
-            flush=True,
-        )
+        text = f"{at:.1f} of {extent.seconds:.1f} s, {player.sent} of {extent.count} messages"
+        self._line.show(player.sent / extent.count, f"replay: {text}")
+
+    def clear(self) -> None:
+        """Takes the line away: what comes next has the result."""
+        self._line.clear()

@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Finds what to play: a recording, the folder of a run with one, or a bag."""
 
-import sys
-import time
 from pathlib import Path
-from typing import TextIO
 
+from warehouse_layout.cli.progress_line import ProgressLine
 from warehouse_viewer.replay.blocks import RecordingError
 from warehouse_viewer.replay.file import NAME, FileRecording
 
@@ -42,21 +40,16 @@ def _converted(bag: Path, made: Path, progress: "Progress") -> Path:
 
 
 class Progress:
-    """Prints on a terminal how much of a bag is read; elsewhere nothing."""
+    """Tells how much of a bag is read."""
 
-    PERIOD = 0.2  # [s, wall]
-
-    def __init__(self, name: str, stream: TextIO = sys.stderr) -> None:
-        self._name, self._stream, self._next = name, stream, 0.0
+    def __init__(self, name: str) -> None:
+        self._name, self._line = name, ProgressLine()
 
     def __call__(self, part: float) -> None:
-        """Shows the part that is done, 0 … 1."""
-        if self._stream.isatty() and time.monotonic() >= self._next:
-            self._next = time.monotonic() + self.PERIOD
-            self._stream.write(f"\r{self._name}: {part:4.0%} read\033[K")
-            self._stream.flush()
+        """Shows the part that is done, 0 … 1, if it is time to."""
+        if self._line.is_due():
+            self._line.show(part, f"{self._name}: {part:.0%} read")
 
     def end(self) -> None:
-        """Ends the line."""
-        if self._stream.isatty():
-            self._stream.write(f"\r{self._name}: read\033[K\n")
+        """Takes the line away."""
+        self._line.clear()
