@@ -222,7 +222,8 @@ def test_the_program_says_what_is_wrong(made):
     assert "a whole number from 1" in run(path, "--steps", 0).stderr
 
 
-def test_it_shows_its_progress_and_interrupted_writes_what_it_has(made):
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_it_shows_its_progress_and_interrupted_writes_what_it_has(made, number):
     path = made(60)
     out = path.with_name("result.json")
     command = [sys.executable, PLAN, path, "--steps", "1000000", "--step-ms", "1", "--out", out]
@@ -232,8 +233,8 @@ def test_it_shows_its_progress_and_interrupted_writes_what_it_has(made):
     shown = ""
     while "of 1,000,000 ticks" not in shown:
         shown += os.read(terminal, 4096).decode()
-    process.send_signal(signal.SIGINT)
-    assert process.wait(timeout=60) == 130
+    process.send_signal(number)
+    assert process.wait(timeout=60) == 128 + number
     errors = ""
     with open(terminal, encoding="utf-8") as rest, suppress(OSError):  # EIO, at a terminal's end
         for line in rest:
