@@ -1,21 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A canvas for charts: matplotlib in the pages' type and colours, axes from zero."""
+"""A canvas for charts: matplotlib in the pages' type and colours, axes from zero.
+
+matplotlib is imported with the first chart: programs that draw nothing, or refuse what they are
+asked for, start in half the time.
+"""
+
+from __future__ import annotations
 
 import io
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from html import escape
 from itertools import count
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib import font_manager
-from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
 
 from warehouse_layout.drawing import page_font
 from warehouse_operations.document import tokens
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 WIDE, NARROW = 680, 350  # [px]
 SMALL = 12  # size of type [px]
@@ -57,6 +63,8 @@ class Canvas:
     ) -> None:
         """Labels both axes and lets them reach from zero to a value. upright: the y axis has
         figures and lines at them; across: the x axis has."""
+        from matplotlib.ticker import MaxNLocator
+
         axes = self.axes
         axes.spines[["top", "right", "left"]].set_visible(False)
         axes.set(xlim=(0, x[1]), ylim=(0, y[1]), xlabel=x[0])
@@ -99,10 +107,20 @@ def single(
     draw: Callable[[Canvas], None], width: float, height: float, margins: Margins, description: str
 ) -> str:
     """Returns a drawing as an SVG of a size [px]."""
-    with mpl.rc_context(_look()):
-        canvas = on(Figure(figsize=(width / 72, height / 72)), (0, 0, width, height), margins)
+    with _figure(width, height) as figure:
+        canvas = on(figure, (0, 0, width, height), margins)
         draw(canvas)
         return _as_svg(canvas, description)
+
+
+@contextmanager
+def _figure(width: float, height: float, **options: Any) -> Iterator[Figure]:
+    """Yields an empty figure of a size [px], with matplotlib set to the pages' look."""
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context(_look()):
+        yield Figure(figsize=(width / 72, height / 72), **options)
 
 
 def on(figure: Figure, place: Margins, margins: Margins) -> Canvas:
@@ -121,8 +139,7 @@ def on(figure: Figure, place: Margins, margins: Margins) -> Canvas:
 
 def write_png(path: Any, draw: Callable[[Figure], None], width: float, height: float) -> None:
     """Writes a picture for slides, light: `draw` fills a figure of that size [px]."""
-    with mpl.rc_context(_look()):
-        figure = Figure(figsize=(width / 72, height / 72), dpi=144)
+    with _figure(width, height, dpi=144) as figure:
         draw(figure)
         figure.savefig(path)
 
@@ -154,6 +171,8 @@ def _top(group: Sequence[float], least: float) -> float:
 
 def _look() -> dict[str, Any]:
     """Returns matplotlib's settings; its own font where Inter is not installed."""
+    from matplotlib import font_manager
+
     manager = font_manager.fontManager
     if page_font.FONT.exists() and not any(font.name == "Inter" for font in manager.ttflist):
         manager.addfont(str(page_font.FONT))

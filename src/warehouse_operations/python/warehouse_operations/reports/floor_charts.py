@@ -4,7 +4,6 @@
 from collections.abc import Sequence
 from typing import Any
 
-import matplotlib as mpl
 import numpy as np
 
 from warehouse_operations.document import tokens
@@ -71,8 +70,10 @@ def heat_map(values: Any, what: str, floor: Sequence[str] = (), stations: Statio
 
 def _paint(axes: Any, opaque: np.ndarray, token: str) -> None:
     """Draws cells in a colour with an opacity from 0 to 1, (h, w)."""
+    from matplotlib import colors
+
     # The same colour on light and dark pages: a picture has no variables.
-    light, dark = (mpl.colors.to_rgb(each[token]) for each in (tokens.LIGHT, tokens.DARK))
+    light, dark = (colors.to_rgb(each[token]) for each in (tokens.LIGHT, tokens.DARK))
     shown = np.empty((*opaque.shape, 4))
     shown[..., :3] = (np.array(light) + np.array(dark)) / 2
     # The smallest value differs visibly from zero.

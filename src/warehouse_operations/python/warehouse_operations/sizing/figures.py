@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The charts of a sizing's report."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from warehouse_operations.document import canvas, tokens
 from warehouse_operations.document.canvas import Canvas
@@ -15,6 +16,9 @@ from warehouse_operations.reports.charts import LINES
 from warehouse_operations.sizing.answer import knee
 from warehouse_operations.sizing.study import Study
 from warehouse_operations.sizing.verdict import Verdict
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 FAR = 2.5  # robots of the last point drawn, over those of the answer
 MARGINS = (54, 84, 32, 40)

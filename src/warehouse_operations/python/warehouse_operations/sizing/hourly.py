@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """A point hour by hour: orders in, done and late, utilisation, and the limit."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from warehouse_operations.document import canvas, sheets, tokens
 from warehouse_operations.document.canvas import Canvas
@@ -14,6 +16,9 @@ from warehouse_operations.document.chart import Chart
 from warehouse_operations.reports import limits
 from warehouse_operations.reports.limits import Limit
 from warehouse_operations.sizing.verdict import Verdict
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 HEAD = (
     "hour", "orders in", "orders done", "late", "open orders", "stations at work %",
