@@ -43,7 +43,7 @@ class PaceLimit {
   struct Grant {
     double until = 0;  ///< Simulated [s].
     WallClock::time_point given_at;
-    std::chrono::seconds patience = kMostSilence;
+    std::chrono::seconds patience{};
 
     bool holds(double time) const;
     bool hasStarted() const { return patience != kMostStart; }
