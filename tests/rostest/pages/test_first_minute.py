@@ -94,8 +94,7 @@ class FirstMinute(PageTest):
 
     def test_7_all_robots_stop_and_go_on(self):
         self.page.read("document.getElementById('stop-all').click()")
-        # A status from before the stop may still come after the answer to the click.
-        self.page.until("document.getElementById('link').textContent.startsWith('emergency stop')")
+        self.page.until("page.bar.stopped !== null")
         wait_until(lambda: kinds() == ["EMERGENCY_STOP"], "the alarm of the stop")
         self.check_for_all()
         self.page.read("document.getElementById('stop-all').click()")

@@ -7,6 +7,7 @@ import { number } from '../language/numbers.js';
 import { confirmed } from '../base/question.js';
 import { tr } from '../language/texts.js';
 import { clock } from '../base/time.js';
+import { Clicks } from './clicks.js';
 
 const STEP = 0.1, UNDO = 5; // [s], simulated
 const SAVED_EVERY = 1; // [s], simulated: what undo goes back to
@@ -21,6 +22,7 @@ export class Bar {
     Object.assign(this, { say, offer, stopped: null, paused: false, live: false, lacks: {} });
     this.stepSize = 0.001; // [s]
     this.latest = 0; // simulated time that was reached [s]
+    this.clicks = new Clicks();
     on($('pause'), 'click', () => this.act(this.paused ? 'resume' : 'pause'));
     on($('step'), 'click', () => this.step());
     on($('undo'), 'click', () => this.act('undo', { seconds: UNDO }, tr`${UNDO} s undone`));
@@ -65,6 +67,7 @@ export class Bar {
     const by = localStorage.getItem('person') ?? '';
     try {
       const { message } = await post(`/fleet/${isHeld ? 'release' : 'stop'}`, { by });
+      this.clicks.note('held', !isHeld);
       this.showStopped(isHeld ? null : by || tr`you`);
       this.say(message, 'done');
     } catch (error) {
@@ -84,7 +87,10 @@ export class Bar {
   async act(path, body, done) {
     try {
       await post(`/simulation/${path}`, body);
-      if (path === 'pause' || path === 'resume') this.showPaused(path === 'pause');
+      if (path === 'pause' || path === 'resume') {
+        this.clicks.note('paused', path === 'pause');
+        this.showPaused(path === 'pause');
+      }
       if (done) this.say(done, 'done');
       return true;
     } catch (error) {
@@ -120,13 +126,14 @@ export class Bar {
       return;
     }
     setText($('warehouse'), status.warehouse || tr`Warehouse`);
-    this.showStopped(status.stopped ?? null);
+    const stopped = status.stopped ?? null;
+    if (!this.clicks.mayPrecede('held', stopped !== null)) this.showStopped(stopped);
+    if (!this.clicks.mayPrecede('paused', status.paused)) this.showPaused(status.paused);
     $('stop-all').hidden = Boolean(this.lacks.stop);
     const held = this.stopped === null ? '' : tr`emergency stop by ${this.stopped}`;
-    this.link(held ? 'away' : status.paused ? 'paused' : 'live', held || (status.paused ? tr`paused` : tr`live`));
-    setText($('factor'), status.paused ? '' : `×${number(status.factor, 2)}`);
+    this.link(held ? 'away' : this.paused ? 'paused' : 'live', held || (this.paused ? tr`paused` : tr`live`));
+    setText($('factor'), this.paused ? '' : `×${number(status.factor, 2)}`);
     this.stepSize = status.step_size;
-    this.showPaused(status.paused);
     this.showSpeed(status.target_factor);
     this.enable();
   }
