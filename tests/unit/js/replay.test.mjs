@@ -10,7 +10,7 @@ import { Player } from '../../../src/warehouse_viewer/web/js/replay/player.js';
 import { rowsOf } from '../../../src/warehouse_viewer/web/js/replay/forecast.js';
 import { Recording } from '../../../src/warehouse_viewer/web/js/replay/recording.js';
 import { State } from '../../../src/warehouse_viewer/web/js/replay/state.js';
-import { AT, table } from './look.mjs';
+import { AT, table } from './scene/look.mjs';
 
 const ROBOT = 7, BODY = 9;
 const SCENE = { robots: [1, 2], units: ['storage_unit1'], items: [], scenery: [] };

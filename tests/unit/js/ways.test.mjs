@@ -7,7 +7,7 @@ import { factsOf } from '../../../src/warehouse_viewer/web/js/panels/fleet.js';
 import { decode } from '../../../src/warehouse_viewer/web/js/base/protocol.js';
 import { addDashes, addSolid, Ways } from '../../../src/warehouse_viewer/web/js/layers/ways.js';
 import { World } from '../../../src/warehouse_viewer/web/js/base/world.js';
-import { scene } from './look.mjs';
+import { scene } from './scene/look.mjs';
 
 /** As viewer/protocol.py writes it: rows [id, waits for, released, planned, goal x, goal y], points. */
 function message(rows, points) {

@@ -4,7 +4,7 @@
 import assert from 'node:assert/strict';
 import { beforeEach, test } from 'node:test';
 import { World, within, wrapped } from '../../../src/warehouse_viewer/web/js/base/world.js';
-import { AT, scene, table } from './look.mjs';
+import { AT, scene, table } from './scene/look.mjs';
 
 const BODY = 9, ROBOT = 7;
 const bodies = (...rows) => table(rows, BODY, [0, 8]);

@@ -3,7 +3,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { axesOf, cornersOf, positionFor, seeAll } from '../../../src/warehouse_viewer/web/js/scene/fit.js';
+import { axesOf, cornersOf, positionFor, seeAll } from '../../../../src/warehouse_viewer/web/js/scene/fit.js';
 
 const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
 

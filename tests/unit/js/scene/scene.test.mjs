@@ -3,15 +3,15 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Renewal, STILL } from '../../../src/warehouse_viewer/web/js/scene/backdrop.js';
-import { FAR, NEAR, StandingCrowd, View } from '../../../src/warehouse_viewer/web/js/scene/crowd.js';
-import { scaleFor } from '../../../src/warehouse_viewer/web/js/scene/fit.js';
-import { boundsOf, hull, merge } from '../../../src/warehouse_viewer/web/js/scene/looks.js';
-import { apart } from '../../../src/warehouse_viewer/web/js/scene/labelled.js';
-import { chevrons } from '../../../src/warehouse_viewer/web/js/scene/paint.js';
-import { nextFrom } from '../../../src/warehouse_viewer/web/js/scene/scene_keys.js';
-import { boardsOf, shelfGeometry, shelfPicture, variantOf, VARIANTS } from '../../../src/warehouse_viewer/web/js/scene/shelves.js';
-import { signOf } from '../../../src/warehouse_viewer/web/js/scene/signs.js';
+import { Renewal, STILL } from '../../../../src/warehouse_viewer/web/js/scene/backdrop.js';
+import { FAR, NEAR, StandingCrowd, View } from '../../../../src/warehouse_viewer/web/js/scene/crowd.js';
+import { scaleFor } from '../../../../src/warehouse_viewer/web/js/scene/fit.js';
+import { boundsOf, hull, merge } from '../../../../src/warehouse_viewer/web/js/scene/looks.js';
+import { apart } from '../../../../src/warehouse_viewer/web/js/scene/labelled.js';
+import { chevrons } from '../../../../src/warehouse_viewer/web/js/scene/paint.js';
+import { nextFrom } from '../../../../src/warehouse_viewer/web/js/scene/scene_keys.js';
+import { boardsOf, shelfGeometry, shelfPicture, variantOf, VARIANTS } from '../../../../src/warehouse_viewer/web/js/scene/shelves.js';
+import { signOf } from '../../../../src/warehouse_viewer/web/js/scene/signs.js';
 import * as THREE from '/three/build/three.module.js';
 import { AT, UNIT } from './look.mjs';
 

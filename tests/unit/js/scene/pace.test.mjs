@@ -3,7 +3,7 @@
 
 import assert from 'node:assert/strict';
 import { beforeEach, test } from 'node:test';
-import { CROWD, DISPLAY, HURRIED, MOST, Pace, SHARE } from '../../../src/warehouse_viewer/web/js/scene/pace.js';
+import { CROWD, DISPLAY, HURRIED, MOST, Pace, SHARE } from '../../../../src/warehouse_viewer/web/js/scene/pace.js';
 
 let now, told, pace;
 

@@ -4,11 +4,11 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import * as THREE from '/three/build/three.module.js';
-import { Crowd, FAR, NEAR, View } from '../../../src/warehouse_viewer/web/js/scene/crowd.js';
-import { labelled } from '../../../src/warehouse_viewer/web/js/scene/labelled.js';
-import { boundsOf, boxesOf, hull, largestOf, merge } from '../../../src/warehouse_viewer/web/js/scene/looks.js';
-import { enters } from '../../../src/warehouse_viewer/web/js/scene/picker.js';
-import { rolledBy, wheelsOf } from '../../../src/warehouse_viewer/web/js/scene/robots.js';
+import { Crowd, FAR, NEAR, View } from '../../../../src/warehouse_viewer/web/js/scene/crowd.js';
+import { labelled } from '../../../../src/warehouse_viewer/web/js/scene/labelled.js';
+import { boundsOf, boxesOf, hull, largestOf, merge } from '../../../../src/warehouse_viewer/web/js/scene/looks.js';
+import { enters } from '../../../../src/warehouse_viewer/web/js/scene/picker.js';
+import { rolledBy, wheelsOf } from '../../../../src/warehouse_viewer/web/js/scene/robots.js';
 import { ROBOT, UNIT } from './look.mjs';
 
 const ray = (origin, direction) => ({ origin: new THREE.Vector3(...origin), direction: new THREE.Vector3(...direction) });

@@ -3,8 +3,8 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Instances, Merged } from '../../../src/warehouse_viewer/web/js/scene/copies.js';
-import { hull, materialOf } from '../../../src/warehouse_viewer/web/js/scene/looks.js';
+import { Instances, Merged } from '../../../../src/warehouse_viewer/web/js/scene/copies.js';
+import { hull, materialOf } from '../../../../src/warehouse_viewer/web/js/scene/looks.js';
 import * as THREE from '/three/build/three.module.js';
 import { ROBOT } from './look.mjs';
 
