@@ -9,19 +9,20 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import shortest_path
+from scipy.sparse.csgraph import dijkstra
 
 from warehouse_fleet._core import PURSUING
 from warehouse_fleet.league.problem import Problem
 
 NOWHERE = -1  # no task
 MOST_TABLE = 4_000  # cells of a map with a table of all ways, of 64 MB
+LANDMARKS = 200  # about as many squares of a larger map, from each of which all ways are known
 MOST_PAIRS = 1_000_000  # robots times tasks that are weighed at once
 WEIGHT = 0.1  # of a task's length beside the way to it
 CHANCE = 3  # tasks that may wait at a place by chance
 QUEUE = 0.01  # of the tasks' mean length: robots come so much farther for each task above CHANCE
 STAY = 1.0  # cells by which another robot has to be nearer to take over a task
-UNREACHABLE = 1e6  # cells
+UNREACHABLE = 65_535  # cells
 
 Cells: TypeAlias = NDArray[np.integer[Any]]
 
@@ -62,8 +63,7 @@ class Shortest:
 
     Weighed are the tasks that are revealed, and that no robot has begun: of a robot that is on its
     way to a task, another one takes it over that is nearer; of large fleets some robots on their
-    way are weighed again, others in the next tick. Ways are as long as without other robots; on
-    large maps they lead straight through walls. Where more tasks wait, robots come from farther
+    way are weighed again, others in the next tick. Ways are as long as without other robots. Where more tasks wait, robots come from farther
     away, or they would serve what is nearest and leave a part of the map behind (the longest queue
     counts most: Tassiulas and Ephremides, IEEE Transactions on Automatic Control 37, 1992). On a
     crowded floor only those robots get tasks that are nearest to one, as many as the planner lets
@@ -157,26 +157,57 @@ class Shortest:
 
 
 class _Ways:
-    """How far cells are from each other [cells]."""
+    """How far cells are from each other [cells]; on large maps at least so far.
+
+    Large maps have landmarks. From each to every cell the way is known, so that the way between two
+    cells is at least the difference of theirs from a landmark (the bound of Goldberg and Harrelson,
+    Computing the Shortest Path: A* Search Meets Graph Theory, 2005). The end's nearest one is used.
+    """
 
     def __init__(self, passable: NDArray[np.bool_]) -> None:
         self._width = passable.shape[1]
-        self._table = _table(passable) if passable.size <= MOST_TABLE else None
+        self._number = np.cumsum(passable).reshape(-1) - 1  # by cell: among the passable ones
+        graph = _graph(passable)
+        self._is_whole = passable.size <= MOST_TABLE
+        marks = None if self._is_whole else self._number[_landmarks(passable)]
+        self._ways = _from(graph, marks)
+        self._nearest = self._ways.argmin(axis=0)
 
     def between(self, starts: Cells, ends: Cells) -> NDArray[np.float64]:
         """Returns the ways from starts to ends, whose shapes are broadcast."""
-        if self._table is not None:
-            return self._table[starts, ends].astype(float)
+        start, end = self._number[starts], self._number[ends]
+        if self._is_whole:
+            return self._ways[start, end].astype(float)
         rows, columns = np.divmod(starts, self._width)
         other_rows, other_columns = np.divmod(ends, self._width)
-        return (np.abs(rows - other_rows) + np.abs(columns - other_columns)).astype(float)
+        straight = np.abs(rows - other_rows) + np.abs(columns - other_columns)
+        mark = self._nearest[end]
+        farther = self._ways[mark, start].astype(int) - self._ways[mark, end]
+        return np.maximum(straight, farther).astype(float)
 
 
-def _table(passable: NDArray[np.bool_]) -> NDArray[np.float32]:
-    """Returns the ways between all cells, (cells, cells)."""
-    cells = np.arange(passable.size).reshape(passable.shape)
+def _landmarks(passable: NDArray[np.bool_]) -> Cells:
+    """Returns passable cells, one of each square of the map that has any."""
+    side = max(1, math.isqrt(np.count_nonzero(passable) // LANDMARKS))
+    cells = np.flatnonzero(passable)
+    rows, columns = np.divmod(cells, passable.shape[1])
+    aside = np.abs(rows % side - side // 2) + np.abs(columns % side - side // 2)
+    order = np.argsort(aside, kind="stable")
+    squares = (rows // side) * passable.shape[1] + columns // side
+    return cells[order[np.unique(squares[order], return_index=True)[1]]]
+
+
+def _graph(passable: NDArray[np.bool_]) -> csr_matrix:
+    """Returns the steps between passable cells, which are numbered in their order."""
+    cells = np.cumsum(passable).reshape(passable.shape) - 1
     across, along = passable[:, :-1] & passable[:, 1:], passable[:-1] & passable[1:]
     starts = np.concatenate([cells[:, :-1][across], cells[:-1][along]])
     ends = np.concatenate([cells[:, 1:][across], cells[1:][along]])
-    graph = csr_matrix((np.ones(len(starts)), (starts, ends)), shape=(passable.size,) * 2)
-    return shortest_path(graph, unweighted=True, directed=False).astype(np.float32)
+    shape = (cells.max() + 1,) * 2
+    return csr_matrix((np.ones(len(starts)), (starts, ends)), shape=shape)
+
+
+def _from(graph: csr_matrix, cells: Cells | None) -> NDArray[np.uint16]:
+    """Returns the ways from these cells, or from all, to all cells, (cells, all cells)."""
+    ways = dijkstra(graph, directed=False, unweighted=True, indices=cells)
+    return np.minimum(ways, UNREACHABLE).astype(np.uint16)

@@ -171,12 +171,14 @@ void DistanceTables::ask(Entry& entry, bool is_urgent) {
   entry.is_urgent = is_urgent || (!is_first && entry.is_urgent);
 }
 
-void DistanceTables::renew(int max_age, std::int64_t work) {
-  buildAll(chooseOutdated(max_age, work));
+void DistanceTables::renew(int max_age, std::int64_t work, std::int64_t least) {
+  work_ = std::max(least, std::min(work, work_));
+  has_worked_ = false;
+  buildAll(chooseOutdated(max_age));
 }
 
 /// Near tables are renewed with the far table that they extend.
-std::vector<DistanceTables::Entry*> DistanceTables::chooseOutdated(int max_age, std::int64_t work) {
+std::vector<DistanceTables::Entry*> DistanceTables::chooseOutdated(int max_age) {
   std::unordered_map<const Entry*, std::vector<Entry*>> near;
   std::vector<Entry*> old;
   for (Entry* entry : asked_) {
@@ -189,9 +191,6 @@ std::vector<DistanceTables::Entry*> DistanceTables::chooseOutdated(int max_age, 
   };
   std::sort(old.begin(), old.end(),
             [&](const Entry* entry, const Entry* other) { return turn(entry) < turn(other); });
-  constexpr int kLeastShare = 4;  // share of the work that is always left for near tables
-  work_ = std::min(work, std::max(work / kLeastShare, work_));
-  has_worked_ = false;
   std::vector<Entry*> chosen;
   std::unordered_map<const Entry*, bool> is_chosen;
   const auto choose = [&](Entry* entry) {

@@ -103,8 +103,8 @@ class DistanceTables {
 
   /// Renews tables used in this step that are older than `max_age` or made with earlier edges, the
   /// urgent and the oldest first. `work` limits their states; new tables of the step count against
-  /// it.
-  void renew(int max_age, std::int64_t work);
+  /// it, but `least` states are always allowed.
+  void renew(int max_age, std::int64_t work, std::int64_t least);
 
   /// Makes the tables of all regions ahead of need, while `goes_on` returns true and there is room.
   void prepare(const std::function<bool()>& goes_on);
@@ -158,7 +158,7 @@ class DistanceTables {
   int reach(Cell goal) const { return floor_.isLane(goal) ? regions_->side() * 5 / 2 : reach(); }
   void touch(Entry& entry);
   void ask(Entry& entry, bool is_urgent);
-  std::vector<Entry*> chooseOutdated(int max_age, std::int64_t work);
+  std::vector<Entry*> chooseOutdated(int max_age);
   void build(const std::vector<Entry*>& entries);
   void buildAll(const std::vector<Entry*>& entries);
   void search(Entry& entry, DistanceSearch& search) const;

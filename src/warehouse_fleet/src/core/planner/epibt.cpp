@@ -65,8 +65,9 @@ class Epibt : public Planner {
   void beginSearch(const Fleet& fleet, const Budget& budget);
   void chooseWindow(const Fleet& fleet, const Budget& budget);
   void updateFleet(const Fleet& fleet);
+  bool hasWaited(int robot, const Fleet& fleet) const;
   double against() const;
-  void wish(const Fleet& fleet);
+  void wish(const Fleet& fleet, double seconds);
   void replan(bool is_crowded);
   std::function<bool()> limit(const Budget& budget) const;
   void search(bool is_crowded, const std::function<bool()>& goes_on);
@@ -161,7 +162,7 @@ void Epibt::plan(const Fleet& fleet, const Budget& budget, Plan& plan) {
   if (search_ == nullptr) beginSearch(fleet, budget);
   updateFleet(fleet);
   closures_->update(fleet);
-  wish(fleet);
+  wish(fleet, budget.seconds);
   const bool is_crowded = yielding_->choose(waiting_, *candidates_, wishes_);
   if (is_crowded) dead_ends_->empty(*tables_, *candidates_, wishes_);
   way_->direct(fleet, !is_crowded, *candidates_, wishes_);
@@ -188,7 +189,7 @@ void Epibt::updateFleet(const Fleet& fleet) {
     const GridPose& was = wishes_[robot].state;
     if (was.cell != fleet.cell[robot]) {
       guidance_->drove(was.cell, was.heading);
-    } else if (was.heading == fleet.heading[robot] && wishes_[robot].goal != kNowhere) {
+    } else if (hasWaited(robot, fleet)) {
       guidance_->waited(was.cell);
     }
   }
@@ -202,13 +203,22 @@ void Epibt::updateFleet(const Fleet& fleet) {
   tables_->reprice();
 }
 
+/// Returns whether a robot that has not left its cell waited on its way. In a jam many turn to and
+/// fro: a turn that takes longer than half a circle is no progress.
+bool Epibt::hasWaited(int robot, const Fleet& fleet) const {
+  constexpr int kHalfCircle = 2;  // [ticks]
+  const Wish& wish = wishes_[robot];
+  if (wish.goal == kNowhere) return false;
+  return wish.state.heading == fleet.heading[robot] || way_->still(robot) >= kHalfCircle;
+}
+
 double Epibt::against() const {
   constexpr double kUnforeseen = 10, kForeseen = 3;
   if (options_.against >= 0) return options_.against;
   return is_in_windows_ ? kForeseen : kUnforeseen;
 }
 
-void Epibt::wish(const Fleet& fleet) {
+void Epibt::wish(const Fleet& fleet, double seconds) {
   wishes_.resize(fleet.size());
   for (int robot = 0; robot < fleet.size(); ++robot) {
     Wish& wish = wishes_[robot];
@@ -224,7 +234,7 @@ void Epibt::wish(const Fleet& fleet) {
       wish.commitment[tick] = fleet.commitment(robot, tick);
     }
   }
-  measuring_->measure(now_, closures_->version(), *way_, wishes_);
+  measuring_->measure(now_, closures_->version(), seconds, *way_, wishes_);
   candidates_->begin(fleet.size());
 }
 

@@ -10,7 +10,8 @@ bool isOnTheWay(const Wish& wish) { return wish.goal != kNowhere && !wish.stoppe
 
 }  // namespace
 
-void Measuring::measure(int now, int version, const MakingWay& way, std::vector<Wish>& wishes) {
+void Measuring::measure(int now, int version, double seconds, const MakingWay& way,
+                        std::vector<Wish>& wishes) {
   tables_.begin(now, version, work(options_.table_work, wishes.size()));
   need(wishes);
   tables_.make();
@@ -20,7 +21,19 @@ void Measuring::measure(int now, int version, const MakingWay& way, std::vector<
     const bool waits = way.still(robot) >= kImpatient && !floor_.isLane(wish.state.cell);
     if (isOnTheWay(wish)) find(waits, wish);
   }
-  tables_.renew(options_.renewal_age, work(options_.renewal_work, wishes.size()));
+  renew(seconds, wishes.size());
+}
+
+/// Robots drive into a jam of which their tables do not know yet, and it grows. So a fifth of a
+/// step's time is for renewals, even if the options' work is done.
+void Measuring::renew(double seconds, std::size_t robots) {
+  constexpr double kShare = 0.2, kStatesASecond = 80e6;
+  constexpr int kLeastShare = 4;  // share of the work that is left whatever new tables took
+  const std::int64_t most = work(options_.renewal_work, robots);
+  constexpr double kMost = 1e9;  // states
+  const auto in_time =
+      static_cast<std::int64_t>(std::min(kMost, kShare * kStatesASecond * seconds));
+  tables_.renew(options_.renewal_age, most, std::max(most / kLeastShare, in_time));
 }
 
 /// Serves robots near their goals first: from far away a region's table suffices.

@@ -25,13 +25,16 @@ class Measuring {
       : floor_(floor), options_(options), tables_(tables) {}
 
   /// Sets the tables of all wishes, at time `now`, with edges of that version. Removes goals that
-  /// can't be reached. Robots that stand (`way`) get renewed tables first.
-  void measure(int now, int version, const MakingWay& way, std::vector<Wish>& wishes);
+  /// can't be reached. Robots that stand (`way`) get renewed tables first. `seconds`: the time of
+  /// the whole step; 0: no more than the options' work is done.
+  void measure(int now, int version, double seconds, const MakingWay& way,
+               std::vector<Wish>& wishes);
 
  private:
   std::int64_t work(std::int64_t a_robot, std::size_t robots) const;
   void need(const std::vector<Wish>& wishes);
   void find(bool waits, Wish& wish);
+  void renew(double seconds, std::size_t robots);
 
   const Floor& floor_;
   const MeasuringOptions options_;
