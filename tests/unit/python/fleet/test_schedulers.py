@@ -79,9 +79,9 @@ def test_on_large_maps_ways_are_at_least_as_long_and_nearly_as_long_as_told(monk
     whole = schedulers._Ways(rooms).between(cells[:, None], cells)
     monkeypatch.setattr(schedulers, "MOST_TABLE", 0)
     monkeypatch.setattr(schedulers, "LANDMARKS", 50)
-    told = schedulers._Ways(rooms).between(cells[:, None], cells)
-    assert (told <= whole).all()
-    assert (whole - told).mean() < 0.05 * whole.mean()
+    bound = schedulers._Ways(rooms).between(cells[:, None], cells)
+    assert (bound <= whole).all()
+    assert (whole - bound).mean() < 0.05 * whole.mean()
 
 
 def test_large_fleets_are_dealt_tasks_in_parts(monkeypatch):

@@ -63,11 +63,11 @@ class Shortest:
 
     Weighed are the tasks that are revealed, and that no robot has begun: of a robot that is on its
     way to a task, another one takes it over that is nearer; of large fleets some robots on their
-    way are weighed again, others in the next tick. Ways are as long as without other robots. Where more tasks wait, robots come from farther
-    away, or they would serve what is nearest and leave a part of the map behind (the longest queue
-    counts most: Tassiulas and Ephremides, IEEE Transactions on Automatic Control 37, 1992). On a
-    crowded floor only those robots get tasks that are nearest to one, as many as the planner lets
-    pursue goals.
+    way are weighed again, others in the next tick. Ways are as long as without other robots. Where
+    more tasks wait, robots come from farther away, or they would serve what is nearest and leave a
+    part of the map behind (the longest queue counts most: Tassiulas and Ephremides, IEEE
+    Transactions on Automatic Control 37, 1992). On a crowded floor only those robots get tasks that
+    are nearest to one, as many as the planner lets pursue goals.
     """
 
     def __init__(self, problem: Problem) -> None:
