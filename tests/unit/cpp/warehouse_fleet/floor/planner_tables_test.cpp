@@ -19,8 +19,9 @@ class Tables : public testing::Test {
     tables_.reprice();
   }
 
-  /// Steps with a need for all tables. Returns each goal's distance from the far end [ticks].
-  std::vector<int> step(int urgent = -1) {
+  /// Steps with a need for all tables; renews `least` states of them at least. Returns each goal's
+  /// distance from the far end [ticks].
+  std::vector<int> step(int urgent = -1, int least = 0) {
     tables_.begin(++now_, 0, kGoals * kStates);
     for (int goal = 0; goal < kGoals; ++goal) tables_.need(Deck::kUnder, goal);
     tables_.make();
@@ -29,7 +30,7 @@ class Tables : public testing::Test {
       const DistanceTable* table = tables_.find(Deck::kUnder, 0, goal, goal == urgent);
       ticks.push_back(table->at(kWidth - 1, 2) / kTickCost);
     }
-    tables_.renew(kAge, kStates);
+    tables_.renew(kAge, kStates, least);
     return ticks;
   }
 
@@ -58,6 +59,17 @@ TEST_F(Tables, WhoDoesNotGetOnComesFirst) {
   for (int goal = 0; goal < kGoals; ++goal) {
     EXPECT_EQ(ticks[goal], (goal == 7 ? 2 : 1) * (kWidth - 1 - goal));
   }
+}
+
+TEST_F(Tables, AsManyAreRenewedAsAreAlwaysAllowed) {
+  constexpr int kThree = 3;
+  for (int tick = 0; tick < kAge; ++tick) step();
+  price(2);
+  step(-1, kThree * kStates);
+  const std::vector<int> ticks = step();
+  int renewed = 0;
+  for (int goal = 0; goal < kGoals; ++goal) renewed += ticks[goal] == 2 * (kWidth - 1 - goal);
+  EXPECT_EQ(renewed, kThree);
 }
 
 }  // namespace
