@@ -15,7 +15,7 @@ from warehouse_fleet._core import PURSUING
 from warehouse_fleet.league.problem import Problem
 
 NOWHERE = -1  # no task
-MOST_TABLE = 4_000  # cells of a map with a table of all ways, of 64 MB
+MOST_TABLE = 4_000  # cells of a map with a table of all ways, of 32 MB
 LANDMARKS = 200  # about as many squares of a larger map, from each of which all ways are known
 MOST_PAIRS = 1_000_000  # robots times tasks that are weighed at once
 WEIGHT = 0.1  # of a task's length beside the way to it
@@ -162,22 +162,20 @@ class _Ways:
     Large maps have landmarks. From each to every cell the way is known, so that the way between two
     cells is at least the difference of theirs from a landmark (the bound of Goldberg and Harrelson,
     Computing the Shortest Path: A* Search Meets Graph Theory, 2005). The end's nearest one is used.
+    On small maps each cell is one, so that ways are exact.
     """
 
     def __init__(self, passable: NDArray[np.bool_]) -> None:
         self._width = passable.shape[1]
         self._number = np.cumsum(passable).reshape(-1) - 1  # by cell: among the passable ones
-        graph = _graph(passable)
-        self._is_whole = passable.size <= MOST_TABLE
-        marks = None if self._is_whole else self._number[_landmarks(passable)]
-        self._ways = _from(graph, marks)
+        is_small = passable.size <= MOST_TABLE
+        marks = None if is_small else self._number[_landmarks(passable)]
+        self._ways = _from(_graph(passable), marks)
         self._nearest = self._ways.argmin(axis=0)
 
     def between(self, starts: Cells, ends: Cells) -> NDArray[np.float64]:
         """Returns the ways from starts to ends, whose shapes are broadcast."""
         start, end = self._number[starts], self._number[ends]
-        if self._is_whole:
-            return self._ways[start, end].astype(float)
         rows, columns = np.divmod(starts, self._width)
         other_rows, other_columns = np.divmod(ends, self._width)
         straight = np.abs(rows - other_rows) + np.abs(columns - other_columns)
