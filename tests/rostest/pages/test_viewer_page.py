@@ -411,6 +411,24 @@ class ViewerPage(PageTest):
         self.page.click_on("pause")
         self.until_link("live")
 
+    def test_a_status_may_come_before_the_answer_to_its_click(self):
+        self.page.read(
+            "(window.isAnswered = false, window.sent = window.fetch,"
+            " window.fetch = async (...request) => {"
+            " const answer = await window.sent(...request);"
+            " await new Promise((done) => setTimeout(done, 1500));"
+            " window.isAnswered = true; return answer; },"
+            # As if the answer to another click had come just now.
+            " page.bar.clicks.note('paused', page.bar.clicks.begin('paused'), false), 0)"
+        )
+        self.page.click_on("pause")
+        self.until_link("paused")
+        self.assertFalse(self.page.read("window.isAnswered"))
+        self.page.until("window.isAnswered")
+        self.page.read("(window.fetch = window.sent, 0)")
+        self.page.click_on("pause")
+        self.until_link("live")
+
     def test_what_is_sent_while_time_stands_still_says_so(self):
         self.page.click_on("pause")
         self.until_link("paused")

@@ -22,7 +22,8 @@ export class Bar {
     Object.assign(this, { say, offer, stopped: null, paused: false, live: false, lacks: {} });
     this.stepSize = 0.001; // [s]
     this.latest = 0; // simulated time that was reached [s]
-    this.clicks = new Clicks();
+    this.status = null; // the newest one
+    this.clicks = new Clicks(() => this.status && this.live && this.showStatus(this.status));
     on($('pause'), 'click', () => this.act(this.paused ? 'resume' : 'pause'));
     on($('step'), 'click', () => this.step());
     on($('undo'), 'click', () => this.act('undo', { seconds: UNDO }, tr`${UNDO} s undone`));
@@ -65,10 +66,11 @@ export class Bar {
     const isHeld = this.stopped !== null;
     if (isHeld && !await confirmed(tr`Release the emergency stop?`, tr`All robots go on with what they did.`, tr`Release`)) return;
     const by = localStorage.getItem('person') ?? '';
+    const click = this.clicks.begin('held');
     try {
       const { message } = await post(`/fleet/${isHeld ? 'release' : 'stop'}`, { by });
-      this.clicks.note('held', !isHeld);
-      this.showStopped(isHeld ? null : by || tr`you`);
+      if (this.clicks.note('held', click, !isHeld)) this.showStopped(isHeld ? null : by || tr`you`);
+      this.tellState();
       this.say(message, 'done');
     } catch (error) {
       this.say(error.message, 'refused');
@@ -85,12 +87,12 @@ export class Bar {
 
   /** True if it was done. */
   async act(path, body, done) {
+    const pauses = { pause: true, resume: false }[path];
+    const click = pauses === undefined ? null : this.clicks.begin('paused');
     try {
       await post(`/simulation/${path}`, body);
-      if (path === 'pause' || path === 'resume') {
-        this.clicks.note('paused', path === 'pause');
-        this.showPaused(path === 'pause');
-      }
+      if (click && this.clicks.note('paused', click, pauses)) this.showPaused(pauses);
+      this.tellState();
       if (done) this.say(done, 'done');
       return true;
     } catch (error) {
@@ -117,7 +119,14 @@ export class Bar {
     setText($('link'), text);
   }
 
+  /** Says beside the name what time and the fleet do. */
+  tellState() {
+    const held = this.stopped === null ? '' : tr`emergency stop by ${this.stopped}`;
+    this.link(held ? 'away' : this.paused ? 'paused' : 'live', held || (this.paused ? tr`paused` : tr`live`));
+  }
+
   showStatus(status) {
+    this.status = status;
     this.lacks = status.lacks;
     this.live = true;
     if (status.away) {
@@ -130,8 +139,7 @@ export class Bar {
     if (!this.clicks.mayPrecede('held', stopped !== null)) this.showStopped(stopped);
     if (!this.clicks.mayPrecede('paused', status.paused)) this.showPaused(status.paused);
     $('stop-all').hidden = Boolean(this.lacks.stop);
-    const held = this.stopped === null ? '' : tr`emergency stop by ${this.stopped}`;
-    this.link(held ? 'away' : this.paused ? 'paused' : 'live', held || (this.paused ? tr`paused` : tr`live`));
+    this.tellState();
     setText($('factor'), this.paused ? '' : `×${number(status.factor, 2)}`);
     this.stepSize = status.step_size;
     this.showSpeed(status.target_factor);
