@@ -43,9 +43,9 @@ vda5050: build  ## a broker, robots as vehicles, and masters that let one fetch 
 
 # Lint, and packages of PyPI, come while configuring and compiling leave a core idle. Without the packages
 # their tests are skipped, and say so.
-test: deps  ## build and run every test; make test ARGS="-L unit" only those
+test: deps  ## build and run every test but the long ones; make test ARGS="-L unit" only those
 	@scripts/beside "$(MAKE) build-tests JOBS=$(JOBS)" "scripts/lint && { scripts/learning_packages || true; scripts/axe || true; scripts/assistant tests || true; }"
-	@scripts/test -j$$((2 * $(JOBS))) $(ARGS)
+	@scripts/test -j$$((2 * $(JOBS))) $(or $(ARGS),-LE long)
 
 test-long: build-tests  ## fleets at work, seed after seed, with and without faults, and all pages; hours. make test-long SEEDS=2
 	@export SOAK_SEEDS=$(SEEDS) FAULT_SEEDS=$(SEEDS) INSTANCE_SEEDS=$(SEEDS) KILLS=$(SEEDS); . devel/setup.bash; cd tests; \
@@ -55,11 +55,7 @@ test-long: build-tests  ## fleets at work, seed after seed, with and without fau
 	VDA5050_HISTORIES=10000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/vda5050/test_histories.py unit/python/vda5050/test_both_sides.py unit/python/vda5050/test_jumps.py; \
 	MUTANTS=all /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/vda5050/conform/test_mutants.py unit/python/vda5050/conform/test_zone_mutants.py unit/python/vda5050/conform/test_master_mutants.py unit/python/vda5050/conform/test_master_zone_mutants.py; \
 	LAYOUTS=$${LAYOUTS:-200} /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/runs/test_random_layouts.py; \
-	JUMP_MINUTES=10 rostest rostest/world/time_jumps.test; \
-	rostest rostest/vda5050/calibrate/calibrate.test; \
-	rostest rostest/vda5050/conform_master/conform_master.test; \
-	rostest rostest/vda5050/conform_master/conform_zones.test; \
-	BURST=all rostest rostest/nodes/malformed.test; \
+	(cd ..; JUMP_MINUTES=10 BURST=all scripts/test -j$$((2 * $(JOBS))) -L long); \
 	MUTATIONS=2000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/runs/test_mutations.py; \
 	../scripts/learning_packages; RWARE_STEPS=$${RWARE_STEPS:-50000} RWARE_IDS=all ../.venv/bin/python -m pytest -q -p no:cacheprovider learning/test_rware.py -k "registered or checkers"; \
 	../bench/hub/cycle_bench --count $${CYCLES:-500}; ../scripts/assistant tests; ../bench/hub/assistant_bench; \

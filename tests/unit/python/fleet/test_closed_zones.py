@@ -168,6 +168,7 @@ def one_way_behind(plan, edges, cell):
     return streets & ~back
 
 
+@pytest.mark.long
 def test_what_is_before_the_closed_end_of_a_one_way_street_is_fetched_and_stored_again():
     """Robots drive a street against its direction that a zone has cut."""
     with Fleet("large") as fleet:

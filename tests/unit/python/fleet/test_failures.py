@@ -63,6 +63,7 @@ class Fleet(Site):
         return int(self.traffic.robots.kiva_ids[robot])
 
 
+@pytest.mark.long
 def test_throughput_with_ten_failures_an_hour():
     failures = {"per_robot_hour": 0.1 * DENSE, "repair_time": 300 / DENSE}
     delivered = {}

@@ -19,7 +19,13 @@ def options(**values):
     return Options.of({"max_cycles": 200, "rewards": REWARDS} | values)
 
 
-@pytest.mark.parametrize("floor", [{"size": "tiny"}, ALONE], ids=["tiny", "alone"])
+@pytest.mark.parametrize(
+    "floor",
+    [
+        pytest.param({"size": "tiny"}, id="tiny"),
+        pytest.param(ALONE, id="alone", marks=pytest.mark.long),
+    ],
+)
 def test_a_trained_policy_beats_chance(floor):
     policy, curve = train(options(**floor), decisions=100_000, seed=0)
     trained = measure(policy, options(**floor), episodes=8, seed=1000)[0].mean()

@@ -16,7 +16,7 @@ from warehouse_msgs.msg import KivaStatus
 from warehouse_operations.calibrate import program
 from warehouse_operations.runs.simulation import Description, open_operations
 
-FILES = Path(__file__).resolve().parents[4] / "rostest" / "vda5050" / "calibrate"
+FILES = Path(__file__).resolve().parents[4] / "rostest" / "vda5050" / "long" / "calibrate"
 MOTION = {"speed": 1.1, "acceleration": 0.7, "quarter_turn_time": 0.9, "lift_time": 3.1}
 ENERGY = {
     "capacity": 30,

@@ -288,6 +288,7 @@ def test_a_short_shift_says_by_name_what_is_too_little(shift, tmp_path):
     assert "# motion: nothing was measured\n# speed: too little to say: 0 cruises, 8 were" in text
 
 
+@pytest.mark.long
 def test_the_program_ends_as_it_says(shift, tmp_path):
     folder = rospkg.RosPack().get_path("warehouse_operations")
     command = [sys.executable, f"{folder}/nodes/calibrate"]

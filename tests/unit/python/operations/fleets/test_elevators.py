@@ -186,7 +186,7 @@ def test_a_queue_rides_in_its_order(fleet_of):
     assert entered == rode and sorted(rode) == list(range(4))
 
 
-@pytest.mark.parametrize("tiers, bots", [(2, 4), (3, 6)])
+@pytest.mark.parametrize("tiers, bots", [(2, 4), pytest.param(3, 6, marks=pytest.mark.long)])
 def test_a_shift_on_tiers(tmp_path, tiers, bots):
     """Twelve minutes with many rides: no contact, no jam, the stock balances; it repeats."""
     path = write_tiers_instance(tmp_path / "a.xinst", tiers=tiers, bots=bots)

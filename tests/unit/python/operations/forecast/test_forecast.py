@@ -172,6 +172,7 @@ def test_an_ideal_fork_takes_each_motion_up_where_it_was():
         assert expected and {n: left[n] for n in expected} == pytest.approx(expected)
 
 
+@pytest.mark.long
 def test_simulated_robots_go_on_from_a_checkpoint_of_their_world():
     with opened(physics=True) as ops:
         ops.run(minutes=4)

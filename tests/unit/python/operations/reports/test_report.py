@@ -116,6 +116,7 @@ def test_simulate_check_and_report(tmp_path, instance, monkeypatch):
     assert (out / "report.html").read_text() == page
 
 
+@pytest.mark.long
 def test_without_a_folder_no_run_is_written_over(tmp_path, instance):
     common = ("--instance", instance, "--no-physics", "--minutes", 2)
     done = node("simulate", *common, cwd=tmp_path)
@@ -202,6 +203,7 @@ grid: {policies.orders: [random, pile-on]}
 """
 
 
+@pytest.mark.long
 def test_a_sweep_compares_and_goes_on_after_an_interruption(tmp_path, instance):
     (tmp_path / "sweep.yaml").write_text(SWEEP)
     shifts = sweep.read(tmp_path / "sweep.yaml")

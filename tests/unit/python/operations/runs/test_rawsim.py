@@ -418,6 +418,7 @@ def with_physics(seed, minutes=10, **site):
     return figures
 
 
+@pytest.mark.long
 def test_ten_minutes_with_physics_on_the_basic_instance_are_no_fewer_than_rawsims(basic_instance):
     seeds = range(1, int(os.environ.get("INSTANCE_SEEDS", "3")) + 1)
     runs = [with_physics(seed, layout=basic_instance) for seed in seeds]

@@ -435,6 +435,7 @@ def test_wrong_prices_are_told(tmp_path):
             prices.read(tmp_path / "p.yaml")
 
 
+@pytest.mark.long
 def test_an_interrupted_sizing_goes_on(tmp_path):
     out = tmp_path / "out"
     arguments = ("--layout", "small", *COMMON, "--hours", 3, "--out", out)

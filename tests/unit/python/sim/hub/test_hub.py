@@ -118,6 +118,7 @@ def test_a_warehouse_from_request_to_end(hub):
     assert hub.ask("GET", "/api/v1/simulations/one")[0] == 404
 
 
+@pytest.mark.long
 def test_what_ends_with_the_hub_also_ends_with_its_kill(hub):
     hub.ask("POST", "/api/v1/simulations", {"name": "one", "empty": True})
     assert hub.wait_for("one", "RUNNING")["state"] == "RUNNING"
@@ -151,6 +152,7 @@ def test_a_simulation_that_dies_says_why(hub):
     assert (entry["kind"], entry["action"]) == ("hub", "end") and "gazebo" in entry["outcome"]
 
 
+@pytest.mark.long
 def test_what_a_warehouse_recorded_outlives_its_crash(tmp_path, monkeypatch):
     monkeypatch.setattr(simulation, "KEEPING", 0.0)
     warehouse = simulation.Simulation(
@@ -208,6 +210,7 @@ def test_wrong_requests_name_what_is_wrong(standing, method, path, body, status,
     assert answer[0] == status and reason in answer[1]["detail"], answer
 
 
+@pytest.mark.long
 def test_a_restart_begins_again(hub):
     hub.ask("POST", "/api/v1/simulations", {"name": "one", "empty": True})
     hub.wait_for("one", "RUNNING")
@@ -280,6 +283,7 @@ def test_its_description_has_each_request(hub):
         assert set(answer) == set(api["components"]["schemas"][name]["properties"]), name
 
 
+@pytest.mark.long
 def test_it_says_how_many_robots_a_warehouse_needs(hub):
     body = {"size": "small", "orders_per_hour": 100, "hours": 0.5, "late": 0.05}
     status, row = hub.ask("POST", "/api/v1/sizings", body)
@@ -354,6 +358,7 @@ def test_a_simulation_that_takes_too_much_is_ended(tmp_path, limit, state, reaso
     assert not living(hub.end())
 
 
+@pytest.mark.long
 def test_a_warehouse_that_is_launched_beside_the_hub_shows_itself_there(hub, tmp_path):
     port = hub.url.rpartition(":")[2]
     command = ["roslaunch", "-p", str(free_port()), "warehouse_sim", "warehouse.launch"]

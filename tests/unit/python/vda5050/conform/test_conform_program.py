@@ -73,6 +73,7 @@ def broker():
         yield broker
 
 
+@pytest.mark.long
 def test_a_vehicle_conforms_and_its_connection_is_cut(broker, tmp_path):
     proxy = free_port()
     with vehicle_at(proxy):

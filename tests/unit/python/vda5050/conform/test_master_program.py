@@ -90,6 +90,7 @@ def command(port, *arguments):
 AUDITS = ("order", "update", "messages", "actions.ids", "instant.repeats", "instant.copies")
 
 
+@pytest.mark.long
 def test_our_master_conforms_at_a_real_broker(broker, tmp_path):
     tried = ("modes.manual", "connection.broken", "states.stale", "horizon.base_request", *AUDITS)
     with master_at(broker.port):

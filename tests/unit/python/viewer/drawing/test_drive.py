@@ -64,6 +64,7 @@ def test_ticks_drive_the_begin_of_a_plan(plan, tmp_path):
     assert (report["ticks"], report["cells"]) == (5, 10)
 
 
+@pytest.mark.long
 def test_ctrl_c_reports_what_was_driven(plan, tmp_path):
     long = json.loads(plan[0].read_text())
     there, back = ["F"] * (COLUMNS - 1), ["R", "R"]

@@ -434,6 +434,7 @@ def faults_on_a_phone(url):
         return page.complaints() + (axe.findings(page) if axe.is_there() else [])
 
 
+@pytest.mark.long
 def test_a_forecast_begins_at_the_moment_of_the_slider(tmp_path):
     done = run("simulate", "--size", "small", "--minutes", 3, "--record", "--out", tmp_path)
     assert done.returncode == 0, done.stderr

@@ -155,6 +155,7 @@ def page_of(folder):
         server.send_signal(signal.SIGINT)
 
 
+@pytest.mark.long
 def test_the_panel_shows_the_slider_s_moment(page_of):
     rows = json.load(urllib.request.urlopen(f"{page_of}recording/vda5050?at={BEGIN + 15}"))
     assert [(row["id"], row["order"], row["past"]["age"]) for row in rows] == [(1, "tour", 5.0)]

@@ -36,6 +36,7 @@ def page(tmp_path_factory):
         yield chromium
 
 
+@pytest.mark.long
 def test_medium_with_8_and_with_12_robots_takes_five_steps(tmp_path):
     with server(tmp_path / "kept") as address, browser(PATIENCE, (1440, 900)) as page:
         page.open(address)
