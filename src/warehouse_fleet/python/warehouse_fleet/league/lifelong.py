@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from warehouse_fleet import Fleet
+from warehouse_fleet._core import PURSUING
 from warehouse_fleet.league.delays import Delays
 from warehouse_fleet.league.problem import Problem
 from warehouse_fleet.league.schedulers import NOWHERE, RoundRobin, Scheduler, Shortest
@@ -25,7 +26,10 @@ class Lifelong:
     +x towards +y), `goal` (a cell), `task` and `errand` (how many errands of its task are done).
     """
 
-    def __init__(self, problem: Problem, planner: ActionPlanner) -> None:
+    def __init__(
+        self, problem: Problem, planner: ActionPlanner, pursuing: float = PURSUING
+    ) -> None:
+        """pursuing: how many robots have tasks at a time, as a share of the passable cells."""
         self.problem, self.planner = problem, planner
         robots = len(problem.agents)
         width = problem.passable.shape[1]
@@ -36,7 +40,7 @@ class Lifelong:
         self.task = np.full(robots, NOWHERE)
         self.errand = np.zeros(robots, int)
         self.scheduler: Scheduler = (
-            RoundRobin(problem) if problem.round_robin else Shortest(problem)
+            RoundRobin(problem) if problem.round_robin else Shortest(problem, pursuing)
         )
         self.delays = Delays(problem.delays, robots) if problem.delays else None
         self.tick = 0

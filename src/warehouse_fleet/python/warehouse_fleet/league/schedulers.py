@@ -13,6 +13,7 @@ from scipy.sparse.csgraph import dijkstra
 
 from warehouse_fleet._core import PURSUING
 from warehouse_fleet.league.problem import Problem
+from warehouse_fleet.league.steps import steps_between
 
 NOWHERE = -1  # no task
 MOST_TABLE = 4_000  # cells of a map with a table of all ways, of 32 MB
@@ -67,12 +68,14 @@ class Shortest:
     more tasks wait, robots come from farther away, or they would serve what is nearest and leave a
     part of the map behind (the longest queue counts most: Tassiulas and Ephremides, IEEE
     Transactions on Automatic Control 37, 1992). On a crowded floor only those robots get tasks that
-    are nearest to one, as many as the planner lets pursue goals.
+    are nearest to one, as many as the planner lets pursue goals; of many that wait, some are
+    weighed.
     """
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Problem, pursuing: float = PURSUING) -> None:
+        """pursuing: how many robots have tasks at a time, as a share of the passable cells."""
         self._limit = int(problem.revealed)
-        self._most = max(1, int(PURSUING * np.count_nonzero(problem.passable)))
+        self._most = max(1, int(pursuing * np.count_nonzero(problem.passable)))
         self._ways = _Ways(problem.passable)
         self._start = np.array([cells[0] for cells in problem.tasks])
         self._length = self._lengths(problem.tasks)
@@ -119,12 +122,13 @@ class Shortest:
         room = max(0, self._most - (len(cell) - len(idle)))
         if room >= len(idle) or not self._open:
             return idle
-        tasks, many = np.array(self._open), max(1, MOST_PAIRS // len(self._open))
-        nearest = [
-            self._cost(cell[idle[k : k + many]], tasks).min(axis=1)
-            for k in range(0, len(idle), many)
-        ]
-        return np.sort(idle[np.argsort(np.concatenate(nearest), kind="stable")[:room]])
+        weighed = max(room, MOST_PAIRS // len(self._open))
+        if weighed < len(idle):
+            idle = np.sort(self._random.choice(idle, weighed, replace=False))
+        if room == weighed:
+            return idle
+        nearest = self._cost(cell[idle], np.array(self._open)).min(axis=1)
+        return np.sort(idle[np.argsort(nearest, kind="stable")[:room]])
 
     def _some(self, going: Cells, idle: int) -> Cells:
         """Draws those robots on their way to a task that are weighed again beside `idle` idle ones.
@@ -170,7 +174,7 @@ class _Ways:
         self._number = np.cumsum(passable).reshape(-1) - 1  # by cell: among the passable ones
         is_small = passable.size <= MOST_TABLE
         marks = None if is_small else self._number[_landmarks(passable)]
-        self._ways = _from(_graph(passable), marks)
+        self._ways = _from(steps_between(passable), marks)
         self._nearest = self._ways.argmin(axis=0)
 
     def between(self, starts: Cells, ends: Cells) -> NDArray[np.float64]:
@@ -193,16 +197,6 @@ def _landmarks(passable: NDArray[np.bool_]) -> Cells:
     order = np.argsort(aside, kind="stable")
     squares = (rows // side) * passable.shape[1] + columns // side
     return cells[order[np.unique(squares[order], return_index=True)[1]]]
-
-
-def _graph(passable: NDArray[np.bool_]) -> csr_matrix:
-    """Returns the steps between passable cells, which are numbered in their order."""
-    cells = np.cumsum(passable).reshape(passable.shape) - 1
-    across, along = passable[:, :-1] & passable[:, 1:], passable[:-1] & passable[1:]
-    starts = np.concatenate([cells[:, :-1][across], cells[:-1][along]])
-    ends = np.concatenate([cells[:, 1:][across], cells[1:][along]])
-    shape = (cells.max() + 1,) * 2
-    return csr_matrix((np.ones(len(starts)), (starts, ends)), shape=shape)
 
 
 def _from(graph: csr_matrix, cells: Cells | None) -> NDArray[np.uint16]:

@@ -64,6 +64,14 @@ def test_on_a_crowded_floor_those_nearest_to_a_task_get_one():
     assert dealt(scheduler, [NOWHERE] * 10, [0] * 10, robots).keys() == {*range(1, 10)}
 
 
+def test_of_many_robots_that_wait_some_are_weighed(monkeypatch):
+    monkeypatch.setattr(schedulers, "MOST_PAIRS", 30)
+    robots = range(10)
+    problem = Problem(CORRIDOR, np.array(robots, np.int32), [[15, 15], [16, 16], [17, 17]] * 4)
+    scheduler = Shortest(problem, pursuing=0.2)  # four of the ten
+    assert len(dealt(scheduler, [NOWHERE] * 10, [0] * 10, robots)) == 4
+
+
 @pytest.mark.parametrize("most", [4000, 1])
 def test_ways_lead_around_walls(monkeypatch, most):
     monkeypatch.setattr(schedulers, "MOST_TABLE", most)
