@@ -78,6 +78,8 @@ def read(path: str | PathLike[str]) -> Problem:
     agents.check(passable)
     agents.check_distinct()
     tasks.check(passable)
+    if not tasks.lines:
+        raise ProblemError(f"{tasks.path}: 0 tasks; 1 or more was expected")
     return Problem(
         passable,
         np.array([line[0] for _, line in agents.lines], np.int32),

@@ -197,6 +197,7 @@ def test_comments_and_letters_of_the_competition(made):
         (".agents", lambda text: "7\n0\n", "7 lines were announced, 1 are there"),
         (".tasks", lambda text: text.replace("\n", "\nx\n", 1), "small.tasks:2: 'x'"),
         (".tasks", lambda text: "", "small.tasks:1: the number of lines"),
+        (".tasks", lambda text: "0\n", "small.tasks: 0 tasks; 1 or more was expected"),
     ],
 )  # fmt: skip
 def test_bad_files(made, ending, change, expected):
