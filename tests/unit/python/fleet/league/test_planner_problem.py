@@ -4,6 +4,7 @@
 import json
 import os
 import pty
+import re
 import signal
 import subprocess
 import sys
@@ -105,6 +106,20 @@ def count(source, history):
             if errand == len(source.tasks[task]):
                 task, errand, finished = task + robots, 0, finished + 1
     return finished
+
+
+def test_it_says_how_many_robots_a_gate_lets_drive(tmp_path):
+    rooms = np.ones((20, 41), bool)
+    rooms[:, 20] = False
+    rooms[10, 20] = True  # a door
+    cells = np.flatnonzero(rooms)
+    tasks = np.random.default_rng(0).choice(cells, (500, 2)).tolist()
+    path = problem.write_problem(tmp_path, "rooms", rooms, cells[:200], tasks, False)
+    done = run(path, "--steps", 1, "--threads", 1)
+    assert re.search(r"plan: \d\d of 200 robots drive at a time", done.stderr), done.stderr
+    (tmp_path / "all.yaml").write_text("planner: epibt\noptions: {pursuing: 0.5}\n")
+    done = run(path, "--steps", 1, "--threads", 1, "--planner", tmp_path / "all.yaml")
+    assert "at a time" not in done.stderr
 
 
 @pytest.mark.parametrize("robots,seed", [(10, 1), (60, 2), (60, 3), (100, 4)])
