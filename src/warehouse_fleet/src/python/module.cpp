@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "arrays.h"
@@ -188,12 +189,25 @@ fleet: as it stands, without conflicts. actions: (n, horizon) uint8 of Action. t
 plan. Raises FloorError if the plan is not one action for each robot and tick.)");
 }
 
+/// What an option of this type is, for people.
+template <typename T>
+const char* kindOf() {
+  if (std::is_same_v<T, bool>) return "true or false";
+  return std::is_integral_v<T> ? "a whole number" : "a number";
+}
+
 std::unique_ptr<Started> startEpibt(std::shared_ptr<Floor> floor, const Rules& rules,
                                     std::uint64_t seed, const py::kwargs& keywords) {
   EpibtOptions options;
   const auto set = [&](const char* name, auto& value) {
     if (!keywords.contains(name)) return;
-    value = keywords[name].cast<std::decay_t<decltype(value)>>();
+    using Type = std::decay_t<decltype(value)>;
+    try {
+      value = keywords[name].cast<Type>();
+    } catch (const py::cast_error&) {
+      throw py::type_error(std::string(name) + " is " + std::string(py::repr(keywords[name])) +
+                           "; " + kindOf<Type>() + " was expected");
+    }
     keywords.attr("pop")(name);
   };
   set("depth", options.depth);

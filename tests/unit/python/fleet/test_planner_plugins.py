@@ -118,6 +118,9 @@ def test_who_does_not_face_its_cell_turns_first(floor):
         ({"planner": f"{LIBRARY}:Mine"}, "no class Mine; it has RightOfWay (fleet::Planner)"),
         ({"plan": "epibt"}, "unknown key 'plan'; planner, options were expected"),
         ({"options": {"deep": 4}}, "epibt: no such option: deep"),
+        ({"options": {"depth": 2.5}}, "epibt: depth is 2.5; a whole number was expected"),
+        ({"options": {"crowd": "x"}}, "epibt: crowd is 'x'; a number was expected"),
+        ({"options": {"goals_are_stops": "no"}}, "is 'no'; true or false was expected"),
     ],
 )
 def test_no_such_planner(floor, spec, expected):
