@@ -3,9 +3,10 @@
 
 A gate is made of the cells at one distance from a source that lead to the same cells beyond. If a
 share f of the errands lies there, 2 f (1 - f) of the ways from one errand to the next lead through
-the gate, and at most one robot a tick does so in each of its cells. A way takes at least as many
-ticks as it has cells, and so long a robot is on it (Little's law). If more robots are on their way,
-they gather before the gate, on both sides, until none gets through.
+the gate, and at most one robot a tick does so in each of its cells. A robot is on its way for at
+least as many ticks as the way has cells. Little's law gives the number of robots on their way: the
+ways begun a tick, times the ticks of one. More robots gather before the gate, on both sides, until
+none gets through.
 """
 
 import math
@@ -37,10 +38,11 @@ def filling(problem: Problem) -> float:
     number = np.cumsum(problem.passable).reshape(-1) - 1  # by location: among the passable ones
     goals = number[np.concatenate(problem.tasks)]
     share = np.bincount(goals, minlength=number[-1] + 1) / len(goals)
-    graph = steps_between(problem.passable)
+    steps = steps_between(problem.passable)
+    graph = steps + steps.T
     sources = np.random.default_rng(0).choice(goals, SOURCES)
     ways, flow = [], math.inf
-    for cells in dijkstra(graph, directed=False, unweighted=True, indices=sources):
+    for cells in dijkstra(graph, unweighted=True, indices=sources):
         reached = np.isfinite(cells)
         distance = np.where(reached, cells, UNREACHED).astype(int)
         part = np.where(reached, share, 0)  # of the errands; all others are elsewhere
@@ -53,10 +55,10 @@ def filling(problem: Problem) -> float:
 def _flow(graph: csr_matrix, distance: NDArray[np.int64], share: NDArray[np.float64]) -> float:
     """Returns how many ways a tick the gates around the source of these distances allow.
 
-    distance, share, (cells,): from the source, and of the errands. Cells are joined from the
-    farthest on, so that those beyond a gate are together when it is reached.
+    graph: the steps in both directions. distance, share, (cells,): from the source, and of the
+    errands. Cells are joined from the farthest on, so that those beyond a gate are together when it
+    is reached.
     """
-    both = graph + graph.T
     beyond = _Sets(share.tolist())
     least = math.inf
     order = np.argsort(-distance, kind="stable")
@@ -64,7 +66,7 @@ def _flow(graph: csr_matrix, distance: NDArray[np.int64], share: NDArray[np.floa
     for level, cells in groupby(order, key=distance.tolist().__getitem__):
         gate = list(cells)
         for cell in gate:
-            for other in both.indices[both.indptr[cell] : both.indptr[cell + 1]].tolist():
+            for other in graph.indices[graph.indptr[cell] : graph.indptr[cell + 1]].tolist():
                 if distance[other] >= level:
                     beyond.join(cell, other)
         for root, width in Counter(map(beyond.root, gate)).items():

@@ -22,8 +22,7 @@ export class Bar {
     Object.assign(this, { say, offer, stopped: null, paused: false, live: false, lacks: {} });
     this.stepSize = 0.001; // [s]
     this.latest = 0; // simulated time that was reached [s]
-    this.status = null; // the newest one
-    this.clicks = new Clicks(() => this.status && this.live && this.showStatus(this.status));
+    this.clicks = new Clicks(() => this.live && this.showStatus(this.status));
     on($('pause'), 'click', () => this.act(this.paused ? 'resume' : 'pause'));
     on($('step'), 'click', () => this.step());
     on($('undo'), 'click', () => this.act('undo', { seconds: UNDO }, tr`${UNDO} s undone`));
@@ -69,8 +68,10 @@ export class Bar {
     const click = this.clicks.begin('held');
     try {
       const { message } = await post(`/fleet/${isHeld ? 'release' : 'stop'}`, { by });
-      if (this.clicks.note('held', click, !isHeld)) this.showStopped(isHeld ? null : by || tr`you`);
-      this.tellState();
+      if (this.clicks.note('held', click, !isHeld)) {
+        this.showStopped(isHeld ? null : by || tr`you`);
+        this.tellState();
+      }
       this.say(message, 'done');
     } catch (error) {
       this.say(error.message, 'refused');
@@ -91,8 +92,10 @@ export class Bar {
     const click = pauses === undefined ? null : this.clicks.begin('paused');
     try {
       await post(`/simulation/${path}`, body);
-      if (click && this.clicks.note('paused', click, pauses)) this.showPaused(pauses);
-      this.tellState();
+      if (click && this.clicks.note('paused', click, pauses)) {
+        this.showPaused(pauses);
+        this.tellState();
+      }
       if (done) this.say(done, 'done');
       return true;
     } catch (error) {
@@ -126,7 +129,7 @@ export class Bar {
   }
 
   showStatus(status) {
-    this.status = status;
+    this.status = status; // the newest one
     this.lacks = status.lacks;
     this.live = true;
     if (status.away) {
